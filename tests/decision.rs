@@ -21,6 +21,7 @@ fn candidate(places: &[usize], gain: f64, drop: f64) -> CandidateEvidence {
         identified: true,
         evidence_gain: gain,
         chi2_drop: drop,
+        scatter_gain: 0.0,
     }
 }
 
@@ -28,6 +29,7 @@ fn evidence(candidates: Vec<CandidateEvidence>, attainable: f64, unknown: f64) -
     Evidence {
         candidates,
         attainable_drop: attainable,
+        attainable_by_evidence: false,
         attainable_spread: 6.0,
         unknown_evidence_gain: unknown,
         beside_unknown: Vec::new(),
@@ -672,4 +674,31 @@ fn a_second_effect_that_adds_little_is_none() {
     let decision = decided(&evidence(all, 2000.0, 850.0));
     assert_eq!(decision.verdict, Verdict::Effect);
     assert_eq!(decision.leader(), Some(&EffectSet::new([CATALOGUE[0]])));
+}
+
+/// Weighed tests of one speed each, whose k a stated scatter of 5 % holds together: what the effect of speed brings is that they agree, and χ² was small before.
+#[test]
+fn what_makes_the_tests_agree_accounts_for_what_evidence_asks() {
+    let of = |name: &str, gain: f64, drop: f64, scatter_gain: f64| CandidateEvidence {
+        scatter_gain,
+        ..candidate(&[place(name)], gain, drop)
+    };
+    let candidates = vec![
+        of("film_thickness", 59.9, 3.7, 62.2),
+        of("sliding_speed_exponent", 57.6, 2.9, 58.0),
+        of("pressure_exponent", 12.0, 1.0, 11.0),
+    ];
+    let weighed = |attainable_by_evidence| {
+        decided(&Evidence {
+            attainable_by_evidence,
+            attainable_spread: 3.5,
+            ..evidence(candidates.clone(), 84.0, 42.0)
+        })
+    };
+    let film = EffectSet::new([CATALOGUE[place("film_thickness")]]);
+    let agreeing = weighed(true);
+    assert!(agreeing.probability_of(&film) > 0.5, "{agreeing:?}");
+    assert!(agreeing.probability(&Hypothesis::Unknown) < 0.01);
+    // the same as falls of χ² are next to nothing of what is attainable
+    assert_eq!(weighed(false).verdict, Verdict::Unknown);
 }

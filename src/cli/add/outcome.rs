@@ -46,7 +46,7 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition, besides: Option<&str
     lines.extend(chi2_with_and_without(addition));
     lines.extend(measured_by(addition));
     if addition.compared.given_up.is_none() && addition.betters_nothing() {
-        lines.push("the effect betters nothing that noise would not: leave it out".to_owned());
+        lines.push(betters_nothing(addition.makes_agree()));
     }
     if tried.len() > 1 {
         lines.push(form(chosen, &tried, addition.without_chi2_per_point));
@@ -92,6 +92,19 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition, besides: Option<&str
             "warnings": comparison.warnings,
         }),
         text: lines.iter().map(|line| format!("  {line}\n")).collect(),
+    }
+}
+
+/// What is said of an effect over which χ² does not fall; `agree`: the scatter of k without it and with it, where it makes the tests agree.
+fn betters_nothing(agree: Option<[f64; 2]>) -> String {
+    match agree {
+        None => "the effect betters nothing that noise would not: leave it out".to_owned(),
+        Some([without, with]) => format!(
+            "χ² falls by no more than noise makes it, but k of the tests scatters by {} % in place of {} %: so few tests may agree by chance; one at \
+             another condition, or one made again, tells",
+            significant(100.0 * with, 2),
+            significant(100.0 * without, 2)
+        ),
     }
 }
 
@@ -230,5 +243,21 @@ impl Report {
             text,
             success: true,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::betters_nothing;
+
+    /// Three weighed tests, two at one speed: an effect of the speed leaves χ² where it was and takes the scatter of k from 34 to 7 %.
+    #[test]
+    fn an_effect_that_makes_the_tests_agree_is_not_to_be_left_out() {
+        assert!(betters_nothing(None).ends_with("leave it out"));
+        let said = betters_nothing(Some([0.342, 0.074]));
+        assert!(
+            said.contains("scatters by 7.4 % in place of 34 %"),
+            "{said}"
+        );
     }
 }

@@ -26,6 +26,9 @@ const CHANCE: f64 = 11.3;
 /// takes up what they explain, and they bring the k of the tests together instead.
 const HOLD: f64 = 3.0;
 
+/// Scatter of k between tests, relative, from which an effect that takes half of it is worth a word.
+const UNLIKE: f64 = 0.15;
+
 /// Share of the least misfit beyond noise, of the forms so far or without the effect, that a cheaper model may leave of another form where that
 /// misfit is large: fine elements are not asked about forms that leave more.
 const PROMISING: f64 = 0.8;
@@ -55,6 +58,8 @@ pub struct Addition {
     pub without_holdout_chi2_per_point: Option<f64>,
     /// Log evidence without the effect.
     pub without_log_evidence: Option<f64>,
+    /// Scatter of k between the tests without the effect, relative.
+    pub without_scatter: Option<f64>,
     /// Fits of the forms in their order; None for those not tried, or that could not be fitted.
     pub tried: Vec<Option<FormFit>>,
     /// Forms not tried for a cheaper model promises little of them, and all that were tried leave far more than noise.
@@ -71,6 +76,12 @@ impl Addition {
             gain,
             &self.compared.comparison.fit,
         )
+    }
+
+    /// The scatter of k between the tests without the effect and with it, where it makes them agree: by half, where they differed by more than k of like tests do.
+    pub fn makes_agree(&self) -> Option<[f64; 2]> {
+        let (without, with) = (self.without_scatter?, self.compared.fit.scatter);
+        (without > UNLIKE && with < 0.5 * without).then_some([without, with])
     }
 }
 
@@ -163,6 +174,7 @@ pub fn add(
     let (form, compared) = best;
     let held_out = (without.as_ref()).and_then(|without| without.held_out(&measured));
     let log_evidence = (without.as_ref()).and_then(|without| without.log_evidence(&measured));
+    let scatter = (without.as_ref()).and_then(|without| without.scatter(&measured));
     let without = (without.as_ref()).and_then(|without| without.base(&measured));
     let points = measured.fitted_points() as f64;
     let mut addition = Addition {
@@ -171,6 +183,7 @@ pub fn add(
         without_chi2_per_point: without.map(|without| without.square / points),
         without_holdout_chi2_per_point: held_out,
         without_log_evidence: log_evidence,
+        without_scatter: scatter,
         tried,
         passed_over,
     };

@@ -30,6 +30,8 @@ struct Base {
     /// Of the held-out tests; None where it cannot be computed.
     held_out: Option<Misfit>,
     log_evidence: f64,
+    /// Scatter of k between the tests, relative.
+    scatter: f64,
 }
 
 impl<'m> BaselineMisfit<'m> {
@@ -59,6 +61,11 @@ impl<'m> BaselineMisfit<'m> {
         self.fitted(measured).map(|base| base.log_evidence)
     }
 
+    /// Its scatter of k between the tests, relative; None where it cannot be computed.
+    pub(super) fn scatter(&self, measured: &Measured<'_>) -> Option<f64> {
+        self.fitted(measured).map(|base| base.scatter)
+    }
+
     fn fitted(&self, measured: &Measured<'_>) -> Option<&Base> {
         let base = self.base.get_or_init(|| {
             let noise = NoiseModel::of(&measured.study().noise);
@@ -70,7 +77,7 @@ impl<'m> BaselineMisfit<'m> {
             };
             measured.with_problem(self.bench, &version, noise, &|_| {}, |problem| {
                 let fit = problem.fit_from(std::slice::from_ref(&own), &effort).ok()?;
-                let log_evidence = fit.log_evidence;
+                let (log_evidence, scatter) = (fit.log_evidence, fit.scatter);
                 let judged = problem.judged(fit.clone(), &effort).ok();
                 Some(Base {
                     scaled: ScaledPrediction {
@@ -78,6 +85,7 @@ impl<'m> BaselineMisfit<'m> {
                         ..problem.scaled(&own)?
                     },
                     log_evidence,
+                    scatter,
                     held_out: judged.map(|fit| measured.misfit_of(Role::Holdout, &fit)),
                 })
             })

@@ -13,6 +13,9 @@ pub struct Evidence {
     pub candidates: Vec<CandidateEvidence>,
     /// A: fall of χ² that anything smooth could bring, beyond what as many terms gain on noise.
     pub attainable_drop: f64,
+    /// Whether A is twice the gain of log evidence in place of a fall of χ² within the tests: the agreement of the tests' own k counts in it.
+    #[serde(default)]
+    pub attainable_by_evidence: bool,
     /// Standard deviation of A on noise alone.
     pub attainable_spread: f64,
     /// ln Z of a Gaussian-process discrepancy over ln Z of the base model.
@@ -70,6 +73,9 @@ pub struct CandidateEvidence {
     pub evidence_gain: f64,
     /// Fall of the whole χ² against the base model.
     pub chi2_drop: f64,
+    /// How much more probable the tests' own deviations of k are than with the base model, ln of the density under their scatter.
+    #[serde(default)]
+    pub scatter_gain: f64,
 }
 
 impl Evidence {
@@ -81,9 +87,18 @@ impl Evidence {
     /// The share of the attainable fall of χ² that a candidate accounts for; 1 where there is no discrepancy.
     pub fn share(&self, candidate: &CandidateEvidence) -> f64 {
         if self.is_discrepant() {
-            candidate.chi2_drop / self.attainable_drop
+            self.fall(candidate) / self.attainable_drop
         } else {
             1.0
+        }
+    }
+
+    /// What a candidate brings of what A counts: the fall of χ², and with the agreement of the tests' own k that of −2 ln of their density too.
+    pub fn fall(&self, candidate: &CandidateEvidence) -> f64 {
+        if self.attainable_by_evidence {
+            candidate.chi2_drop + 2.0 * candidate.scatter_gain
+        } else {
+            candidate.chi2_drop
         }
     }
 }

@@ -40,10 +40,12 @@ impl JudgedCandidates {
             identified: unidentified(likelihood, fitted).is_none(),
             evidence_gain: fitted.log_evidence - base.log_evidence,
             chi2_drop: base.square - fitted.square,
+            scatter_gain: fitted.scatter_gain,
         };
         let evidence = Evidence {
             candidates: candidates.iter().map(figures).collect(),
             attainable_drop: smooth.drop,
+            attainable_by_evidence: smooth.by_evidence,
             attainable_spread: smooth.spread(),
             unknown_evidence_gain: discrepancy.alone - base.log_evidence,
             beside_unknown: (discrepancy.effects.iter())
@@ -108,7 +110,8 @@ impl JudgedCandidates {
         let leader = self.decision.leading_effects()?;
         let mut all = self.evidence.candidates.iter();
         let best = all.find(|c| c.effects == *leader)?;
-        (self.evidence.is_discrepant()).then_some([best.chi2_drop, self.evidence.attainable_drop])
+        (self.evidence.is_discrepant())
+            .then_some([self.evidence.fall(best), self.evidence.attainable_drop])
     }
 }
 

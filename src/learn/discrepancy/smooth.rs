@@ -31,6 +31,8 @@ const SIGNIFICANT: f64 = 5.0;
 pub(in crate::learn) struct SmoothDiscrepancy {
     /// Fall of χ² beyond what its terms gain on noise.
     pub(in crate::learn) drop: f64,
+    /// Whether that is what evidence gains at least, in which the tests' own k agreeing counts, and not what the terms bring.
+    pub(in crate::learn) by_evidence: bool,
     /// Number of terms that this takes.
     pub(in crate::learn) terms: usize,
     /// Its values, model minus what is missing: to be added to the model, per row.
@@ -100,6 +102,7 @@ impl SmoothDiscrepancy {
                 }
                 SmoothDiscrepancy {
                     drop: fallen - count as f64,
+                    by_evidence: false,
                     terms: count,
                     values,
                 }
@@ -112,6 +115,7 @@ impl SmoothDiscrepancy {
         let SmoothDiscrepancy { drop, terms, .. } = *best(&tried, sure);
         Self {
             drop,
+            by_evidence: false,
             terms,
             values: shown,
         }
@@ -120,8 +124,10 @@ impl SmoothDiscrepancy {
     /// The same where a smooth discrepancy gains `evidence` (log) over none: evidence pays for its freedom, so the fall of χ² that gains it is
     /// at least twice that. Discrepancies common to all tests, a function of the cycles say, gain more than terms of every test's own.
     pub(in crate::learn) fn gaining(self, evidence: f64) -> Self {
+        let least = 2.0 * evidence;
         Self {
-            drop: self.drop.max(2.0 * evidence),
+            drop: self.drop.max(least),
+            by_evidence: least > self.drop,
             ..self
         }
     }
@@ -239,11 +245,13 @@ mod tests {
     fn evidence_bounds_the_fall_from_below() {
         let found = |drop| SmoothDiscrepancy {
             drop,
+            by_evidence: false,
             terms: 8,
             values: Vec::new(),
         };
         assert_eq!(found(100.0).gaining(80.0).drop, 160.0);
         assert_eq!(found(100.0).gaining(30.0).drop, 100.0);
+        assert!(found(100.0).gaining(80.0).by_evidence && !found(100.0).gaining(30.0).by_evidence);
         // what was hardly more than noise becomes real by it: the standard deviation is 4
         assert!(!found(19.0).is_real() && found(19.0).gaining(11.0).is_real());
     }

@@ -79,6 +79,8 @@ pub struct Diagnosis {
     pub explained_share: Option<f64>,
     /// Fall of χ² that anything smooth could bring.
     pub attainable_drop: f64,
+    /// Whether that is twice the gain of log evidence: the agreement of the tests' own k counts in it (`scatter_gain` of the effects).
+    pub attainable_by_evidence: bool,
     /// Standard deviation of that on noise alone.
     pub attainable_spread: f64,
     /// Log evidence of a smooth discrepancy of unknown cause over the base model.
@@ -226,6 +228,7 @@ impl Diagnosis {
             residual_drivers,
             explained_share: posterior.share_of_leader(),
             attainable_drop: smooth.drop.max(0.0),
+            attainable_by_evidence: smooth.by_evidence,
             attainable_spread: smooth.spread(),
             unknown_evidence_gain: posterior.evidence.unknown_evidence_gain,
             next_experiment,
