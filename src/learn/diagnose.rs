@@ -164,6 +164,7 @@ fn search(context: &Context<'_>, base: &BaseFit, workshop: &Workshop) -> Diagnos
         stages.begin([MEDIUM, DECIDING], doing, COARSE_FITS);
         fitted = context.refine(base, fitted, smooth.is_real(), smooth.drop);
         fitted = context.with_other_valleys(base, fitted);
+        fitted = context.with_moved_centres(base, fitted, smooth.drop);
         fitted = context.with_unseen(base, fitted, &smooth);
     }
     if context.fidelity != Fidelity::Middle {

@@ -2,6 +2,7 @@
 
 pub mod average;
 pub mod chi_squared;
+pub mod golden_section;
 pub mod halton;
 pub mod latin_hypercube;
 pub mod logarithm;

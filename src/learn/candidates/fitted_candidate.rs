@@ -164,6 +164,17 @@ impl BaseFit {
         v - &self.adjustable * along
     }
 
+    /// Orthonormal columns of the changes that a candidate's own parameters, k and the tests' own k make where it was fitted; rows as of
+    /// [`BaseFit::left`].
+    pub(in crate::learn) fn follows(
+        &self,
+        likelihood: &Likelihood<'_>,
+        fitted: &FittedCandidate,
+    ) -> DMatrix<f64> {
+        let whitened = likelihood.covariance.whiten_all(&fitted.found.jacobian);
+        adjustable(likelihood, &whitened, self.fitted.found.scatter)
+    }
+
     /// The state of the fit with an added effect's values.
     pub(in crate::learn) fn added(&self, candidate: &Candidate, values: &[f64]) -> State {
         let known = &self.fitted.found.state;

@@ -274,6 +274,14 @@ impl Candidate {
         self.forms.iter().all(Option::is_none)
     }
 
+    /// Whether both add the same effects in the same forms.
+    pub(in crate::learn) fn is_same_as(&self, other: &Self) -> bool {
+        let name = |(card, form): (&Card, Option<&Form>)| (card.name, form.map(|form| form.name));
+        self.added_forms()
+            .map(name)
+            .eq(other.added_forms().map(name))
+    }
+
     /// Values of its parameters: the base model's own as they are, the added ones' prior medians.
     pub(in crate::learn) fn medians(&self) -> Vec<f64> {
         let free = self.version.free.iter();

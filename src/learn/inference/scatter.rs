@@ -14,6 +14,7 @@ use std::f64::consts::PI;
 use nalgebra::{DMatrix, DVector};
 
 use crate::learn::inference::quadratic::{Layout, Normal, Quadratic, State};
+use crate::numeric::golden_section::place_of_largest;
 use crate::study;
 
 /// Standard deviation of the half-normal prior.
@@ -22,6 +23,8 @@ pub(in crate::learn) const SCATTER_SD: f64 = 0.25;
 const RANGE: [f64; 2] = [1e-4, 1.5];
 /// Points of the integral over ln σ_k.
 const POINTS: usize = 65;
+/// How closely its most probable logarithm is found.
+const CLOSE: f64 = 1e-4;
 
 /// The posterior of everything common to the tests.
 #[derive(Debug)]
@@ -53,7 +56,8 @@ pub(in crate::learn) fn most_probable(
         .fold((low, f64::NEG_INFINITY), |best, at| {
             if at.1 > best.1 { at } else { best }
         });
-    golden(density, (best.0 - step).max(low), (best.0 + step).min(high)).exp()
+    let about = [(best.0 - step).max(low), (best.0 + step).min(high)];
+    place_of_largest(density, about, CLOSE).exp()
 }
 
 /// The integral over everything, the scatter included.
@@ -134,23 +138,4 @@ fn corner(matrix: &DMatrix<f64>, n: usize) -> DMatrix<f64> {
     } else {
         matrix.view((0, 0), (n, n)).into_owned()
     }
-}
-
-/// The place of the largest value of a function with one maximum between `low` and `high`.
-fn golden(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    let share = 0.5 * (5f64.sqrt() - 1.0);
-    let (mut a, mut b) = (high - share * (high - low), low + share * (high - low));
-    let (mut fa, mut fb) = (f(a), f(b));
-    while high - low > 1e-4 {
-        if fa < fb {
-            (low, a, fa) = (a, b, fb);
-            b = low + share * (high - low);
-            fb = f(b);
-        } else {
-            (high, b, fb) = (b, a, fa);
-            a = high - share * (high - low);
-            fa = f(a);
-        }
-    }
-    0.5 * (low + high)
 }

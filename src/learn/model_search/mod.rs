@@ -13,6 +13,7 @@ pub(in crate::learn) mod learned_drivers;
 pub(in crate::learn) mod matching_pursuit;
 mod medium_fidelity;
 mod most_missed;
+mod moved_centres;
 pub(in crate::learn) mod nested_forms;
 mod other_valleys;
 mod pair_exchange;

@@ -46,7 +46,7 @@ pub(in crate::learn) fn kept<'j>(
 }
 
 /// Whether a pair holds a single effect in its form.
-fn is_part(single: &FittedCandidate, pair: &FittedCandidate) -> bool {
+pub(super) fn is_part(single: &FittedCandidate, pair: &FittedCandidate) -> bool {
     let name = |(card, form): (&Card, Option<&Form>)| (card.name, form.map(|form| form.name));
     let own = single.candidate.added_forms().map(name);
     let mut joint = pair.candidate.added_forms().map(name);
@@ -137,7 +137,7 @@ pub(in crate::learn) fn fit(
 }
 
 /// A fitted pair's state with the parameters of one of its effects only.
-fn state_in(candidate: &Candidate, pair: &FittedCandidate) -> Option<State> {
+pub(super) fn state_in(candidate: &Candidate, pair: &FittedCandidate) -> Option<State> {
     let value = |name: &str| {
         let at = (pair.candidate.parameters.iter()).position(|p| p.name == name)?;
         Some(pair.found.state.theta[at])

@@ -44,10 +44,17 @@ impl PairStart {
         let candidate: Candidate = first.candidate.with(&second.candidate);
         let added = &second.found.state.theta[candidate.inherited..];
         let state = &first.found.state;
-        let offset = if first.offset.is_empty() {
+        // what is to be added moves with the centre distance
+        let moves = |single: &FittedCandidate| single.candidate.moves_the_centres();
+        let anchor = if moves(second) && !moves(first) {
+            second
+        } else {
+            first
+        };
+        let offset = if anchor.offset.is_empty() {
             &base.fitted.offset
         } else {
-            &first.offset
+            &anchor.offset
         };
         Self {
             state: State {

@@ -12,6 +12,7 @@ use rayon::prelude::*;
 
 use super::changes_alone::ChangesAlone;
 use super::context::Context;
+use super::moved_centres;
 use super::pair_exchange;
 use super::pair_fit::{self, PROMISE, PairStart};
 use super::second_effects;
@@ -62,6 +63,18 @@ pub(in crate::learn) fn pairs(
             fitted.extend(more);
             fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
         }
+    }
+    if let Some(pair) = fitted.first() {
+        let starts = moved_centres::in_pair(context, singles, pair);
+        for other in pair_fit::fit(context, base, starts) {
+            let same = |known: &&mut FittedCandidate| known.candidate.is_same_as(&other.candidate);
+            match fitted.iter_mut().find(same) {
+                Some(known) if known.found.objective <= other.found.objective => {}
+                Some(known) => *known = other,
+                None => fitted.push(other),
+            }
+        }
+        fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
     }
     if let Some(leader) = fitted.first_mut().filter(|pair| !pair.converged) {
         let start = PairStart {

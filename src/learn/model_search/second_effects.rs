@@ -2,8 +2,11 @@
 //! way than alone.
 //!
 //! ```text
-//! gain = ½ (oᵀ r)²/oᵀo       o: the second's change that neither k nor an amplitude of the first one's change can make;  r: what the first leaves
+//! gain = ½ (oᵀ r)²/oᵀo       o: the second's change that neither k nor the first one can make;  r: what the first leaves
 //! ```
+//! Which pairs are fitted is asked with the first one's amplitude taken from o, for it may be fitted in another valley beside the second. What is left
+//! to be said of the first one's fit is asked with all of its parameters taken from o: half of Rao's score statistic. A part that its other parameters follow would
+//! count in oᵀo and not in oᵀr, where the fit has made it 0, and a second effect that a wrong decay had stood for would promise next to nothing.
 
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -14,6 +17,8 @@ use crate::learn::hypothesis::EffectSet;
 
 /// Gain of ln likelihood from which a second effect is worth a sentence: of some fifty forms the best gains 4 to 5 from noise.
 const WORTH_A_SENTENCE: f64 = 10.0;
+/// Least part of a change's square that the first effect cannot make: of less, the changes' own curvature is left.
+const LEAST_OWN: f64 = 1e-3;
 
 /// The gain of each of the `fitted`, of which `seen` are the visible changes, once `leader` of them is in; none for other forms of its own effects.
 pub(super) fn on_top(
@@ -29,20 +34,27 @@ pub(super) fn on_top(
     let length = direction.norm_squared();
     let others = (0..fitted.len())
         .filter(|&other| fitted[other].candidate.effects != first.candidate.effects);
-    let gain = |other: &DVector<f64>| {
+    let own = |other: &DVector<f64>| {
         let mut other = other.clone();
         if length > 0.0 {
             let share = other.dot(direction) / length;
             other.axpy(-share, direction, 1.0);
         }
-        let square = other.norm_squared();
-        if square > 1e-9 {
-            0.5 * other.dot(&left).powi(2) / square
-        } else {
-            0.0
-        }
+        other
     };
-    others.map(|other| (gain(&seen[other]), other)).collect()
+    others
+        .map(|other| (gain(&own(&seen[other]), &left, 1e-9), other))
+        .collect()
+}
+
+/// ½ (oᵀ r)²/oᵀo; 0 where o is no longer than `least`, squared.
+fn gain(own: &DVector<f64>, left: &DVector<f64>, least: f64) -> f64 {
+    let square = own.norm_squared();
+    if square > least {
+        0.5 * own.dot(left).powi(2) / square
+    } else {
+        0.0
+    }
 }
 
 /// The single effect that promises most beside `leader`, and the fall of χ² that it promises, if it is worth a sentence.
@@ -52,16 +64,27 @@ pub(in crate::learn) fn next(
     fitted: &[FittedCandidate],
     leader: &FittedCandidate,
 ) -> Option<(EffectSet, f64)> {
-    let mut all = vec![leader];
+    let likelihood = &context.likelihood;
+    let follows = base.follows(likelihood, leader);
+    let beyond = |v: DVector<f64>| {
+        let along = follows.tr_mul(&v);
+        v - &follows * along
+    };
+    let left = beyond(base.left(likelihood, &leader.found.model, &leader.found.state));
     let is_other_single = |other: &&FittedCandidate| {
         other.candidate.effects.len() == 1
             && !leader.candidate.effects.contains(&other.candidate.effects)
     };
-    all.extend(fitted.iter().filter(is_other_single));
-    let seen: Vec<DVector<f64>> = (all.par_iter())
-        .map(|fitted| base.visible(&context.likelihood, &fitted.change))
-        .collect();
-    let gains = on_top(context, base, &all, &seen, 0);
-    let (gain, best) = gains.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
-    (gain > WORTH_A_SENTENCE).then(|| (all[best].candidate.effects.clone(), 2.0 * gain))
+    let all: Vec<&FittedCandidate> = fitted.iter().filter(is_other_single).collect();
+    let promised = |other: &&FittedCandidate| {
+        let mut change = likelihood.covariance.whiten(&other.change);
+        change.resize(left.len(), 0.0);
+        let change = DVector::from_vec(change);
+        let least = LEAST_OWN * change.norm_squared();
+        gain(&beyond(change), &left, least)
+    };
+    let gains: Vec<f64> = all.par_iter().map(promised).collect();
+    let gains = gains.into_iter().zip(all);
+    let (gain, best) = gains.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (gain > WORTH_A_SENTENCE).then(|| (best.candidate.effects.clone(), 2.0 * gain))
 }
