@@ -9,6 +9,7 @@
 use std::fs;
 
 use serde_json::Value;
+use tempfile::TempDir;
 
 mod common;
 
@@ -63,13 +64,21 @@ fn agrees(found: &[Value], prefix: &str) {
     }
 }
 
+/// Measurements that the model of a study makes, with noise.
+fn made(home: &TempDir, study: &str, noise: f64) -> String {
+    fs::write(home.path().join("true.toml"), study).unwrap();
+    succeed(
+        home,
+        &format!("synthesize true.toml -o made --noise {noise} --seed 1"),
+    );
+    fs::read_to_string(home.path().join("made/measurements.csv")).unwrap()
+}
+
 #[test]
 fn a_short_relief_is_not_taken_for_a_long_one() {
     let home = tempfile::tempdir().unwrap();
     let path = |name: &str| home.path().join(name);
-    fs::write(path("true.toml"), format!("{STUDY}{RELIEF}")).unwrap();
-    succeed(&home, "synthesize true.toml -o made --noise 0.02 --seed 1");
-    let rows = fs::read_to_string(path("made/measurements.csv")).unwrap();
+    let rows = made(&home, &format!("{STUDY}{RELIEF}"), 0.02);
     let kept = rows.lines().filter(|line| !line.starts_with('#'));
     let kept = kept.filter(|line| !line.contains("transmission_error"));
     let kept: Vec<String> = kept
@@ -146,9 +155,7 @@ const HIDDEN_APART: &str = "[[effect]]\nkind = \"radial_misalignment\"\namount =
 fn axes_farther_apart_are_found_beside_another_effect() {
     let home = tempfile::tempdir().unwrap();
     let path = |name: &str| home.path().join(name);
-    fs::write(path("true.toml"), format!("{APART}{HIDDEN_APART}")).unwrap();
-    succeed(&home, "synthesize true.toml -o made --noise 0.05 --seed 1");
-    let rows = fs::read_to_string(path("made/measurements.csv")).unwrap();
+    let rows = made(&home, &format!("{APART}{HIDDEN_APART}"), 0.05);
     let is_worn = |line: &&str| line.contains("wear_depth") || line.contains("mass_loss");
     let (head, rest) = rows[rows.find("test,").unwrap()..]
         .split_once('\n')

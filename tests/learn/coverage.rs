@@ -102,7 +102,8 @@ fn intervals_cover_the_truth() {
     }
 }
 
-/// A held-out test's own k over its error has the spread of a standard normal: the errors of what the fit tests gave are in it.
+/// A held-out test's own k over its error has the spread of a standard normal: the errors of what the fit tests gave are in it. So has what the model
+/// predicts of its last measurement, where these errors and that of its k take from each other: without the sign of their covariance it would have none of it.
 ///
 /// 200 draws: the standard deviation of a standard deviation is 5 %, so 0.85 to 1.15 asks for the right size within three of them. The test's own
 /// noise alone would leave 4: running-in runs on through all of its short life, and is known by two fit tests with few points.
@@ -110,7 +111,7 @@ fn intervals_cover_the_truth() {
 fn the_error_of_a_held_out_coefficient_is_its_spread() {
     let truth = [1.3e-10, 2.5, 1.5e5];
     let empty = wear_data(&[("A", 1e6), ("B", 6e5), ("S", 1e5)], 11, true);
-    let mut square = 0.0;
+    let (mut square, mut predicted) = (0.0, 0.0);
     let draws = 200;
     for seed in 0..draws {
         let mut random = Random(9000 + seed);
@@ -134,9 +135,15 @@ fn the_error_of_a_held_out_coefficient_is_its_spread() {
         .unwrap();
         let held = &fit.tests[2];
         square += ((held.coefficient / ks[2]).ln() / held.sigma).powi(2) / draws as f64;
+        let last = data.observations.len() - 1;
+        let true_value = running_in(&data.observations[last], ks[2], &truth[1..]);
+        let off = fit.rows[last].model - true_value;
+        let error = held.uncertainty.of_sum(|row| f64::from(row == last));
+        predicted += (off / error).powi(2) / draws as f64;
     }
-    let spread = square.sqrt();
-    assert!((0.85..1.15).contains(&spread), "{spread}");
+    let spreads = [square, predicted].map(f64::sqrt);
+    let right = spreads.iter().all(|s| (0.85..1.15).contains(s));
+    assert!(right, "{spreads:?}");
 }
 
 /// Six tests with k scattered by 20 %: the scatter is found, and the common k is covered once that scatter counts.
