@@ -125,6 +125,8 @@ pub struct Screened {
     /// How much more probable the tests' own deviations of k are than with the base model, ln of the density under their scatter: an effect of the
     /// tests' conditions makes the scatter smaller.
     pub scatter_gain: f64,
+    /// What of these counts against `attainable_drop`: the fall of χ², and where that is taken by evidence twice the gain of the scatter too.
+    pub attained_drop: f64,
     /// Whether the deciding model was used.
     pub decided: bool,
     /// Whether it was fitted to the end; what a first look leaves far behind is not, and its χ² is that of the look.
@@ -276,6 +278,7 @@ fn screened(context: &Context<'_>, posterior: &JudgedCandidates) -> Vec<Screened
         evidence_gain: figures.evidence_gain,
         scatter_gain: fitted.scatter_gain,
         chi2_drop: figures.chi2_drop,
+        attained_drop: posterior.evidence.fall(figures),
         decided: fitted.fidelity == context.fidelity,
         converged: fitted.found.converged,
         values: parameters(fitted).iter().map(|p| p.value).collect(),

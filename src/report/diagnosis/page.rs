@@ -171,9 +171,9 @@ fn fitted(diagnosis: &Diagnosis) -> Option<Section> {
         "by",
     ];
     let mut table = Table::new("", head);
-    let drops = diagnosis.screened.iter().map(|entry| entry.chi2_drop);
+    let drops = diagnosis.screened.iter().map(|entry| entry.attained_drop);
     let largest = drops.fold(attainable, f64::max);
-    let better = |entry: &&Screened| entry.chi2_drop > 0.0;
+    let better = |entry: &&Screened| entry.attained_drop > 0.0;
     let shown: Vec<&Screened> = (diagnosis.screened.iter().filter(better))
         .take(FITTED)
         .collect();
@@ -186,7 +186,10 @@ fn fitted(diagnosis: &Diagnosis) -> Option<Section> {
         };
         table = table.row([
             Cell::text(named),
-            Cell::Bar(entry.chi2_drop / largest, format!("{:.0}", entry.chi2_drop)),
+            Cell::Bar(
+                entry.attained_drop / largest,
+                format!("{:.0}", entry.attained_drop),
+            ),
             Cell::number(fixed(entry.evidence_gain, 1)),
             Cell::text(match (entry.decided, entry.converged) {
                 (true, true) => "the deciding model",
@@ -198,8 +201,13 @@ fn fitted(diagnosis: &Diagnosis) -> Option<Section> {
     let text = format!(
         "The whole χ² is another measure than χ² per point: that of all rows together, by their whole covariance (noise, datums, the model's own error), \
          with priors left out; divided by the rows it does not give the figures of the ranking. Anything smooth could bring it down by about {attainable:.0}. The {count} best of {} candidates; those that showed nothing in \
-         the screening are left out. A first look that leaves a candidate far behind is not followed to its best fit.",
-        diagnosis.screened.len()
+         the screening are left out. A first look that leaves a candidate far behind is not followed to its best fit.{}",
+        diagnosis.screened.len(),
+        match diagnosis.attainable_by_evidence {
+            true =>
+                " Most of what there is to explain is that the tests differ in k: how far an effect makes them agree counts in these falls.",
+            false => "",
+        }
     );
     Some(
         Section::new("What each effect explains")
