@@ -45,7 +45,7 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
             |(name, sheet): &(String, Sheet)| taken.take(args, &study, name, sheet, &wanted);
         let sheets = chosen.len();
         let parts: Vec<(String, Sheet)> = (chosen.into_iter())
-            .flat_map(|sheet| parts(table, sheet))
+            .flat_map(|sheet| parts(table, sheet, &wanted))
             .collect();
         for (n, part) in parts.iter().enumerate() {
             if let Err(error) = take(part) {
@@ -122,13 +122,17 @@ fn chosen<'s>(
 }
 
 /// The tables of a sheet, each with its name.
-fn parts(table: &Path, sheet: &Sheet) -> Vec<(String, Sheet)> {
+fn parts(table: &Path, sheet: &Sheet, wanted: &Wanted<'_>) -> Vec<(String, Sheet)> {
     let name = named(table, sheet);
-    match import::side_by_side(sheet) {
+    let parts = import::side_by_side(sheet).or_else(|| import::labelled_blocks(sheet, wanted));
+    match parts {
         Some(parts) => (parts.into_iter())
             .map(|(columns, part)| (format!("{name}, {columns}"), part))
             .collect(),
-        None => vec![(name, sheet.clone())],
+        None => {
+            let table = import::weighings_across(sheet);
+            vec![(name, table.unwrap_or_else(|| sheet.clone()))]
+        }
     }
 }
 

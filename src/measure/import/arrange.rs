@@ -12,6 +12,7 @@ mod pairs;
 mod profiles;
 mod sides;
 mod speeds;
+mod stated_losses;
 mod torques;
 mod totals;
 mod weighings;
@@ -145,6 +146,8 @@ fn completed(
         if wanted.per_interval.cycles {
             added_up &= durations::as_totals(table, head, wanted, &mut said)?;
         }
+        let header = columns(&table.rows[head]);
+        stated_losses::pass_over(table, head, &header, wanted, &mut said)?;
         let header = columns(&table.rows[head]);
         let of_masses = weighings::could_be(&header);
         let of_gauges = !of_masses && gauges::could_be(&header, wanted);

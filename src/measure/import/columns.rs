@@ -102,7 +102,11 @@ impl Column {
         });
         let at_a_level = without_level.is_some();
         let (name, unit) = units::name_and_unit(&without_level.unwrap_or(plain));
-        let revolutions = names::revolutions(&name);
+        let speed = names::speed(&name, unit.as_deref());
+        let revolutions = match speed {
+            Some(_) => None,
+            None => names::revolutions(&name),
+        };
         let hours = names::hours(&name, unit.as_deref());
         let what = if written.is_empty() {
             What::Nameless
@@ -120,7 +124,7 @@ impl Column {
             What::Span(when)
         } else if let Some(when) = names::chord(&name) {
             What::Chord(when)
-        } else if let Some(of) = names::speed(&name, unit.as_deref()) {
+        } else if let Some(of) = speed {
             What::Speed { of }
         } else if let Some(of) = names::torque(&name, unit.as_deref()) {
             What::Torque { of }

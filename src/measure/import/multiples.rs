@@ -80,17 +80,47 @@ impl Multiple {
     }
 }
 
-/// A name of cycles with a multiple behind `in` as it would be with the multiple in brackets: `Lastwechsel in Mio.` as `Lastwechsel [Mio.]`.
+/// Words before a name of cycles that count it in multiples, with the unit that each is.
+const COUNTED_IN: [(&str, &str); 8] = [
+    ("milliers de ", "x1000"),
+    ("migliaia di ", "x1000"),
+    ("miles de ", "x1000"),
+    ("thousands of ", "x1000"),
+    ("thousand ", "x1000"),
+    ("millions de ", "1E6"),
+    ("milioni di ", "1E6"),
+    ("millones de ", "1E6"),
+];
+
+/// A name of cycles with a multiple behind `in` or alone, or before it, as it would be with the multiple in brackets: `Lastwechsel in Mio.` as `Lastwechsel
+/// [Mio.]`, `Umdrehungen x1000` as `Umdrehungen [x1000]`, `Milliers de tours` as `tours [x1000]`.
 pub(super) fn in_brackets(header: &str) -> Option<String> {
-    let (name, multiple) = [" in ", " en "]
-        .iter()
-        .find_map(|word| header.rsplit_once(word))?;
+    let (name, multiple) = multiple_apart(header)?;
     let last = name.rsplit([',', ';']).next().unwrap_or(name);
     let names_cycles = names::words(last)
         .iter()
         .any(|word| names::revolutions(word).is_some());
     let unit: String = multiple.split_whitespace().collect();
     (names_cycles && of_unit(&unit).is_some()).then(|| format!("{name} [{}]", multiple.trim()))
+}
+
+/// A name and the words beside it that may be a multiple.
+fn multiple_apart(header: &str) -> Option<(&str, &str)> {
+    let behind = [" in ", " en "].iter();
+    if let Some(both) = behind.filter_map(|word| header.rsplit_once(word)).next() {
+        return Some(both);
+    }
+    let lower = header.to_lowercase();
+    let counted = COUNTED_IN.iter().find_map(|(words, unit)| {
+        let is_of_same_length = lower.len() == header.len();
+        (is_of_same_length && lower.starts_with(words)).then(|| (&header[words.len()..], *unit))
+    });
+    counted.or_else(|| {
+        let (name, last) = header.rsplit_once(' ')?;
+        // without a sign or a letter it may be a count itself
+        last.starts_with(|c: char| c.is_alphabetic() || c == '\u{d7}')
+            .then_some((name, last))
+    })
 }
 
 /// The sheet with plain revolutions in the headers that state a multiple each (`0,25 [1E6]`), and what was made of them, in words.
@@ -215,6 +245,9 @@ pub(super) fn factor(header: &str) -> Option<f64> {
 /// The factor in the last brackets of a header, before a word for revolutions too: `[1E6]`, `(x1000 rev)`.
 fn of_brackets(header: &str) -> Option<f64> {
     let written = units::bracketed(header)?;
+    if written.trim() == "k" {
+        return Some(1e3);
+    }
     let counts = |word: &&str| names::revolutions(word).is_some();
     let unit: String = match written.trim().rsplit_once(' ') {
         Some((multiple, word)) if counts(&word) => multiple.split_whitespace().collect(),
@@ -310,6 +343,13 @@ mod tests {
             ("radius [1e6]", None),
             ("Lastwechsel [1E60]", None),
             ("Lastwechsel 1E6", None),
+            ("Tours [k]", Some(1e3)),
+            ("Milliers de tours", Some(1e3)),
+            ("Migliaia di giri", Some(1e3)),
+            ("Umdrehungen x1000", Some(1e3)),
+            ("Lastwechsel Mio.", Some(1e6)),
+            ("Milliers de Nm", None),
+            ("Umdrehungen 1000", None),
         ] {
             assert_eq!(factor(header), expected, "{header}");
         }

@@ -28,7 +28,6 @@ pub fn side_by_side(sheet: &Sheet) -> Option<Vec<(String, Sheet)>> {
             .iter()
             .filter_map(|cells| last_filled(cells));
         let last = last.max().unwrap_or(0);
-        let letters = |column: usize| cell_name(0, column).trim_end_matches('1').to_owned();
         let columns = format!("columns {} to {}", letters(start), letters(start + last));
         let columns = match start {
             0 => columns,
@@ -37,6 +36,11 @@ pub fn side_by_side(sheet: &Sheet) -> Option<Vec<(String, Sheet)>> {
         (columns, own)
     });
     Some(parts.collect())
+}
+
+/// The letters of a column.
+pub(super) fn letters(column: usize) -> String {
+    cell_name(0, column).trim_end_matches('1').to_owned()
 }
 
 fn last_filled(cells: &[String]) -> Option<usize> {

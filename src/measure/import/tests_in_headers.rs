@@ -4,7 +4,9 @@ use super::arrange::stated_above;
 use super::columns::half_understood;
 use super::wanted::Wanted;
 use super::wide::{Wide, header, is_aside, of_one_test};
-use super::{ImportError, Sheet, Titles, cell_name, conditions_above, multiples, second_header};
+use super::{
+    ImportError, Sheet, Titles, cell_name, conditions_above, multiples, new_parts, second_header,
+};
 
 type Result<T> = std::result::Result<T, ImportError>;
 
@@ -14,6 +16,7 @@ type Result<T> = std::result::Result<T, ImportError>;
 /// [`ImportError`] where cells are no numbers, or where it cannot be told what is what.
 pub fn wide(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let (sheet, between) = second_header::merged(sheet)?;
+    let (sheet, new_parts) = new_parts::as_zero(&sheet);
     let (sheet, multiplied) = multiples::in_each_header(&sheet)?;
     half_understood::refuse(&sheet, wanted)?;
     if wanted.per_interval.cycles {
@@ -34,6 +37,7 @@ pub fn wide(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let mut obeyed: Vec<String> = above.obeyed.into_iter().map(|(_, words)| words).collect();
     obeyed.extend(between);
     obeyed.extend(multiplied);
+    obeyed.extend(new_parts);
     let wanted = &Wanted {
         test: wanted.test.or(above.test),
         member: wanted.member.or(above.member),

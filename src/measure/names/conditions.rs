@@ -3,7 +3,7 @@
 use super::counting::{
     HOURS, MODULES, NEWTON_METRES, NUMBERS_OF_TEETH, PER_MINUTE, SPEEDS, TIMES, TORQUES,
 };
-use super::{folded, is_filler, member, one_member, telling, words};
+use super::{folded, is_filler, member, one_member, revolutions, telling, words};
 use crate::measure::quantity::Subject;
 
 /// Hours of a unit of the running time that a name and its unit mean; none if they mean no time.
@@ -45,7 +45,11 @@ pub(in crate::measure) fn speed(name: &str, unit: Option<&str>) -> Option<Option
     let rest = rest.concat();
     let is_named = SPEEDS.contains(&rest.as_str());
     let is_it = match unit {
-        Some(_) => has_unit && (is_named || rest == "n" || rest.is_empty()),
+        // `Giri [rpm]`
+        Some(_) => {
+            let is_counted = revolutions(&rest).is_some();
+            has_unit && (is_named || is_counted || rest == "n" || rest.is_empty())
+        }
         None => is_named || has_unit && (rest == "n" || rest.is_empty()),
     };
     is_it.then(|| one_member(&of.join(" ")))

@@ -149,7 +149,7 @@ pub(super) const MASSES: [&str; 10] = [
 ];
 
 /// Names of the span over several teeth.
-pub(super) const SPANS: [&str; 9] = [
+pub(super) const SPANS: [&str; 13] = [
     "span",
     "toothspan",
     "spanmeasurement",
@@ -158,7 +158,11 @@ pub(super) const SPANS: [&str; 9] = [
     "basetangentlength",
     "wk",
     "zahnweite",
+    "zahnweitewk",
     "quotawildhaber",
+    "cotesurkdents",
+    "cotesurdents",
+    "ecartement",
 ];
 
 /// Names of the chord of a tooth.

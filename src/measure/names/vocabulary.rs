@@ -64,6 +64,10 @@ pub(super) const COLUMNS: [(&str, &[&str]); 10] = [
             "messzahne",
             "messzahnezahl",
             "messzahnzahl",
+            "dentsk",
+            "dentsmesurees",
+            "denticompresi",
+            "dentimisurati",
             "walzwinkel",
             "walzlange",
             "walzweg",
@@ -319,13 +323,24 @@ pub(super) const REPEATS: [&str; 23] = [
 ];
 
 /// Words for the time before a test.
-pub(super) const BEFORE: [&str; 15] = [
-    "before", "initial", "start", "new", "vorher", "vor", "anfang", "neu", "prima", "iniziale",
-    "avant", "initiale", "antes", "inicial", "nuevo",
+pub(super) const BEFORE: [&str; 23] = [
+    "before", "initial", "start", "new", "vorher", "vor", "anfang", "neu", "neuteil", "prima",
+    "iniziale", "nuovo", "nuova", "avant", "initiale", "neuf", "neuve", "neufs", "neuves", "antes",
+    "inicial", "nuevo", "nueva",
 ];
 
 /// Words for the time after a test.
-pub(super) const AFTER: [&str; 13] = [
+pub(super) const AFTER: [&str; 23] = [
+    "verschlissen",
+    "gelaufen",
+    "gebraucht",
+    "usurato",
+    "usurata",
+    "usato",
+    "usata",
+    "usee",
+    "usado",
+    "desgastado",
     "after",
     "final",
     "end",
@@ -342,8 +357,8 @@ pub(super) const AFTER: [&str; 13] = [
 ];
 
 /// Words that say nothing in a name.
-pub(super) const FILLERS: [&str; 31] = [
-    "of", "the", "a", "an", "after", "no", "nr", "number", "id", "name", "der", "die", "das",
-    "des", "nach", "anzahl", "nummer", "di", "d", "del", "della", "dei", "numero", "de", "du",
-    "la", "le", "l", "el", "nombre", "n",
+pub(super) const FILLERS: [&str; 33] = [
+    "nb", "nbre", "of", "the", "a", "an", "after", "no", "nr", "number", "id", "name", "der",
+    "die", "das", "des", "nach", "anzahl", "nummer", "di", "d", "del", "della", "dei", "numero",
+    "de", "du", "la", "le", "l", "el", "nombre", "n",
 ];

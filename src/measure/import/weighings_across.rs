@@ -1,0 +1,116 @@
+//! A row for each member with a column for each weighing: `Test | Member | Mass new [g] | Mass after 40000 cycles [g] | Mass after 100000 cycles [g]`.
+
+use super::numbers::number_words;
+use super::{Sheet, columns, units};
+use crate::measure::names::{self, When};
+
+/// The same with a row for each weighing but the first, both side by side; none for other sheets.
+pub fn weighings_across(sheet: &Sheet) -> Option<Sheet> {
+    let (head, weighings) =
+        (sheet.rows.iter().enumerate()).find_map(|(row, cells)| Some((row, weighings(cells)?)))?;
+    let header = &sheet.rows[head];
+    let is_weighing = |at: &usize| weighings.iter().any(|(column, ..)| column == at);
+    let others: Vec<usize> = (0..header.len()).filter(|at| !is_weighing(at)).collect();
+    let known = columns::columns(&header[..]);
+    let names_members = known
+        .iter()
+        .any(|column| column.what.own() == Some("member"));
+    let units: Vec<&Option<String>> = weighings.iter().map(|(.., unit)| unit).collect();
+    if !names_members || units.iter().any(|unit| *unit != units[0]) {
+        return None;
+    }
+    let cells_of = |cells: &[String]| -> Vec<String> {
+        let cell = |&at: &usize| cells.get(at).cloned().unwrap_or_default();
+        others.iter().map(cell).collect()
+    };
+    let unit = (units[0].as_ref()).map_or(String::new(), |unit| format!(" [{unit}]"));
+    let (of_new, later): (Vec<_>, Vec<_>) =
+        (weighings.iter()).partition(|(_, cycles, _)| cycles == "0");
+    let masses = ["before", "after"].map(|when| format!("mass {when}{unit}"));
+    let mut rows: Vec<Vec<String>> = sheet.rows[..head].to_vec();
+    rows.push([&cells_of(header)[..], &["cycles".to_owned()], &masses].concat());
+    for cells in sheet.rows[head + 1..].iter() {
+        let mass = |at: usize| cells.get(at).filter(|cell| !cell.is_empty());
+        for (column, cycles, _) in &later {
+            if let Some(worn) = mass(*column) {
+                let new = mass(of_new[0].0).cloned().unwrap_or_default();
+                rows.push([cells_of(cells), vec![cycles.clone(), new, worn.clone()]].concat());
+            }
+        }
+    }
+    Some(Sheet {
+        rows,
+        ..sheet.clone()
+    })
+}
+
+/// The columns of the weighings of a header with the cycles of each and its unit; none where there are not several, the first of the new part.
+fn weighings(cells: &[String]) -> Option<Vec<(usize, String, Option<String>)>> {
+    let all: Vec<_> = (cells.iter().enumerate())
+        .filter_map(|(column, cell)| {
+            let (cycles, unit) = weighing(cell)?;
+            Some((column, cycles, unit))
+        })
+        .collect();
+    let of_new = all.iter().filter(|(_, cycles, _)| cycles == "0").count();
+    (all.len() > 2 && of_new == 1).then_some(all)
+}
+
+/// The cycles after which a column's mass was weighed, 0 of the new part, and its unit; none for other columns.
+fn weighing(header: &str) -> Option<(String, Option<String>)> {
+    let (name, unit) = units::name_and_unit(header);
+    if names::weighed(&name) == Some(When::Before) {
+        return Some(("0".to_owned(), unit));
+    }
+    let [count] = number_words(&name)[..] else {
+        return None;
+    };
+    let rest = name.replacen(count, " ", 1);
+    let says_when = |word: &String| {
+        names::revolutions(word).is_some() || names::time_alone(word) == Some(When::After)
+    };
+    let mut rest = names::words(&rest);
+    rest.retain(|word| !says_when(word));
+    names::is_mass(&rest.join(" ")).then(|| (count.to_owned(), unit))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_weighing_becomes_a_row() {
+        let sheet = Sheet::of_rows(&[
+            "Versuch|Rad|Masse neu [g]|Masse nach 40000 LW [g]|Masse nach 100000 LW [g]",
+            "T1|Ritzel|612.4312|612.4097|612.3758",
+            "T1|Rad|1893.1177|1893.0954|",
+        ]);
+        let long = weighings_across(&sheet).unwrap();
+        let masses = ["mass before [g]", "mass after [g]"];
+        assert_eq!(
+            long.rows[0],
+            [&["Versuch", "Rad", "cycles"][..], &masses].concat()
+        );
+        assert_eq!(
+            long.rows[1],
+            ["T1", "Ritzel", "40000", "612.4312", "612.4097"]
+        );
+        assert_eq!(
+            long.rows[2],
+            ["T1", "Ritzel", "100000", "612.4312", "612.3758"]
+        );
+        assert_eq!(long.rows.len(), 4);
+        // two weighings alone are columns of their own; nothing of the new part; no member
+        for other in [
+            "Test|Member|Mass before [g]|Mass after [g]",
+            "Test|Member|Mass after 1e4 [g]|Mass after 2e4 [g]|Mass after 3e4 [g]",
+            "Test|Mass new [g]|Mass after 10000 [g]|Mass after 20000 [g]",
+        ] {
+            let rows = [other, "A|pinion|3|2|1"];
+            assert!(
+                weighings_across(&Sheet::of_rows(&rows)).is_none(),
+                "{other}"
+            );
+        }
+    }
+}
