@@ -5,8 +5,8 @@
 
 use gearwear::effects::CATALOGUE;
 use gearwear::learn::diagnose::{
-    CandidateEvidence, Decision, DecisionRule, EffectSet, Evidence, Hypothesis, RemainderEvidence,
-    Verdict, decide,
+    CandidateEvidence, Decision, DecisionRule, EffectSet, Evidence, Hypothesis, PlaceLawEvidence,
+    RemainderEvidence, Verdict, decide,
 };
 use proptest::prelude::*;
 
@@ -33,6 +33,7 @@ fn evidence(candidates: Vec<CandidateEvidence>, attainable: f64, unknown: f64) -
         attainable_spread: 6.0,
         unknown_evidence_gain: unknown,
         beside_unknown: Vec::new(),
+        place_laws: Vec::new(),
     }
 }
 
@@ -73,18 +74,31 @@ prop_compose! {
     }
 }
 
+/// A law of the place instead of the effect at one place of the catalogue, beside another or, where both are one, beside none.
+fn place_law((waves, other, evidence_gain): (usize, usize, f64)) -> PlaceLawEvidence {
+    let waves = EffectSet::new([CATALOGUE[waves]]);
+    PlaceLawEvidence {
+        beside: EffectSet::new([CATALOGUE[other]]).without(&waves),
+        instead_of: waves,
+        law: "learned:s".to_owned(),
+        evidence_gain,
+    }
+}
+
 prop_compose! {
     fn any_evidence()(
         candidates in prop::collection::vec(any_candidate(), 1..30),
         attainable in 0.0..8000.0_f64,
         unknown in -50.0..4000.0_f64,
         remainders in prop::collection::btree_map(0..CATALOGUE.len(), (-5.0..300.0_f64, 0.0..1.0_f64), 0..=6),
+        laws in prop::collection::vec((0..CATALOGUE.len(), 0..CATALOGUE.len(), -5.0..3000.0_f64), 0..=2),
     ) -> Evidence {
         let of = |(place, (gain, left)): (usize, (f64, f64))| {
             beside(place, gain, attainable * (1.0 - left), attainable * left)
         };
         Evidence {
             beside_unknown: remainders.into_iter().map(of).collect(),
+            place_laws: laws.into_iter().map(place_law).collect(),
             ..evidence(candidates, attainable, unknown)
         }
     }
@@ -661,6 +675,49 @@ fn what_an_effect_leaves_is_said_where_its_form_does_not_excuse_it() {
     };
     assert_eq!(with(1980.0, 20.0).verdict, Verdict::Effect);
     assert_eq!(with(1760.0, 240.0).verdict, Verdict::Partial);
+}
+
+/// A starved band beside debris: two waves of the profile follow it, and a factor on k by the place does so better, which no name of the catalogue is.
+#[test]
+fn what_acts_by_its_place_is_no_profile_where_a_factor_on_k_is_more_probable() {
+    let [debris, form] = [place("debris_abrasion"), place("profile_form")];
+    let set = |places: &[usize]| EffectSet::new(places.iter().map(|&p| CATALOGUE[p]));
+    let law = |places: &[usize], evidence_gain| PlaceLawEvidence {
+        beside: set(places),
+        instead_of: set(&[form]),
+        law: "learned:s".to_owned(),
+        evidence_gain,
+    };
+    let with = |laws: Vec<PlaceLawEvidence>| {
+        decided(&Evidence {
+            beside_unknown: vec![beside(debris, 29.0, 316.0, 194.0)],
+            place_laws: laws,
+            ..evidence(
+                vec![
+                    candidate(&[debris, form], 229.0, 505.0),
+                    candidate(&[debris], 157.0, 316.0),
+                    candidate(&[form], 94.0, 228.0),
+                ],
+                506.0,
+                132.0,
+            )
+        })
+    };
+    let pair = Some(set(&[debris, form]));
+    let named = with(Vec::new());
+    assert_eq!(named.verdict, Verdict::Effects);
+    assert_eq!(named.leader(), pair.as_ref());
+    let band = with(vec![law(&[], 103.0), law(&[debris], 248.0)]);
+    assert_eq!(band.verdict, Verdict::Partial, "{band:?}");
+    let group = [Hypothesis::EffectsAndUnknown(set(&[debris]))];
+    assert_eq!(band.group, group);
+    // a profile that wears away is not followed so
+    let profile = with(vec![law(&[], 60.0), law(&[debris], 190.0)]);
+    assert_eq!(profile.verdict, Verdict::Effects);
+    assert_eq!(profile.leader(), pair.as_ref());
+    // without debris too, as probable as with it: then debris is not established
+    let alone = with(vec![law(&[], 246.0), law(&[debris], 248.0)]);
+    assert_eq!(alone.verdict, Verdict::Unknown, "{alone:?}");
 }
 
 /// The weaker effect of a pair that adds next to nothing mends the form of the stronger one, which is named alone.

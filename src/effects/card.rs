@@ -92,6 +92,8 @@ pub struct Form {
     /// Values of those that it frees, which stand behind all that the own form fits, each a place from which this form is tried beside what the
     /// own one was fitted to; a wave among them is brought to the amplitude and phase that serve best. None: it is fitted for itself.
     pub grown: &'static [&'static [f64]],
+    /// Whether it differs from the own form only where the members have other numbers of teeth.
+    pub of_ratio: bool,
     /// What it does to the wear where that is not what the card says; empty: the card's.
     pub signature: &'static str,
 }
@@ -105,6 +107,7 @@ impl Form {
         idle: &[],
         even: &[],
         grown: &[],
+        of_ratio: false,
         signature: "",
     };
 }

@@ -16,7 +16,8 @@
 //! its own form (`OWN_FORM` in `likelihood`).
 
 pub use crate::learn::decision::{
-    CandidateEvidence, Decision, DecisionRule, Evidence, RemainderEvidence, Verdict, decide,
+    CandidateEvidence, Decision, DecisionRule, Evidence, PlaceLawEvidence, RemainderEvidence,
+    Verdict, decide,
 };
 pub use crate::learn::discrepancy::{
     BinMean, DRIVER_KINDS, DRIVERS, Driver, DriverBin, DriverKind, DriverRow, Explained, MapPoint,
@@ -49,7 +50,9 @@ use crate::learn::model_search::beside_unknown::WithDiscrepancy;
 use crate::learn::model_search::context::Context;
 use crate::learn::model_search::high_fidelity::decide_leaders;
 use crate::learn::model_search::stages::Stages;
-use crate::learn::model_search::{learned_drivers, matching_pursuit, nested_forms, pairs};
+use crate::learn::model_search::{
+    learned_drivers, matching_pursuit, nested_forms, pairs, place_laws,
+};
 use crate::learn::noise::{ModelError, NoiseModel};
 use crate::learn::prediction::bench::Workshop;
 use crate::simulate::forward::ContactKind;
@@ -166,6 +169,7 @@ fn search(context: &Context<'_>, base: &BaseFit, workshop: &Workshop) -> Diagnos
         fitted = context.with_other_valleys(base, fitted);
         fitted = context.with_moved_centres(base, fitted, smooth.drop);
         fitted = context.with_unseen(base, fitted, &smooth);
+        fitted = nested_forms::of_waves_by_elements(context, base, fitted, &smooth);
     }
     if context.fidelity != Fidelity::Middle {
         fitted = decide_leaders(context, base, fitted, smooth.drop, [DECIDING, PAIRS]);
@@ -194,7 +198,20 @@ fn search(context: &Context<'_>, base: &BaseFit, workshop: &Workshop) -> Diagnos
             effects: Vec::new(),
         }
     };
-    let posterior = JudgedCandidates::new(likelihood, base, fitted, discrepancy, &smooth, rule);
+    let place_laws = if smooth.is_real() && !context.approximate {
+        place_laws::instead_of_waves(context, base, &singles, &fitted)
+    } else {
+        Vec::new()
+    };
+    let posterior = JudgedCandidates::new(
+        likelihood,
+        base,
+        fitted,
+        discrepancy,
+        place_laws,
+        &smooth,
+        rule,
+    );
     let doing = "held-out tests and the next experiment".to_owned();
     stages.begin([EXPERIMENT, LAWS], doing, 1);
     let diagnosis = Diagnosis::new(Findings {

@@ -39,7 +39,7 @@ pub use comparison::{
     Curve, CurvePoint, FormFit, Group, Improvement, Item, LadderStep, LearnedAddition, LeftOut,
     Outlier, ParameterRecord, Prospects, Ratio, Share, TestRecord, Validation, Version, Watch, add,
     add_learned, compare, compare_all, contact_of, curves, cycles_in_another_unit, data_warnings,
-    differences, differing_tests, ladder, left_out, precursors, prospects, questions,
+    differences, differing_tests, is_among, ladder, left_out, precursors, prospects, questions,
 };
 pub use fitting::fit::{Coefficient, FitError, Problem};
 pub use fitting::fitted::{Fit, PredictionUncertainty, RowFit, TestFit};

@@ -82,6 +82,7 @@ pub(super) const CARD: Card = Card {
         Form {
             name: "counted in own contacts",
             settings: &[("own_contacts", 1.0)],
+            of_ratio: true,
             ..Form::PLAIN
         },
         Form {

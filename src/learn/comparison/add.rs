@@ -80,9 +80,14 @@ impl Addition {
 
     /// The scatter of k between the tests without the effect and with it, where it makes them agree: by half, where they differed by more than k of like tests do.
     pub fn makes_agree(&self) -> Option<[f64; 2]> {
-        let (without, with) = (self.without_scatter?, self.compared.fit.scatter);
-        (without > UNLIKE && with < 0.5 * without).then_some([without, with])
+        let both = [self.without_scatter?, self.compared.fit.scatter];
+        agree(both).then_some(both)
     }
+}
+
+/// Whether tests agree in k, by its scatter between them without an effect and with it.
+pub(super) fn agree([without, with]: [f64; 2]) -> bool {
+    without > UNLIKE && with < 0.5 * without
 }
 
 /// Whether a fit betters nothing over one of this χ² per point that noise would not, over which it gains so much log evidence: its new parameters
@@ -187,7 +192,7 @@ pub fn add(
         tried,
         passed_over,
     };
-    if addition.betters_nothing() {
+    if addition.betters_nothing() && addition.makes_agree().is_none() {
         addition.compared = addition.compared.without_intervals();
     }
     Ok(addition)

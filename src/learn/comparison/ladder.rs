@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::add::betters_nothing;
+use super::add::{agree, betters_nothing};
 use super::record::{Comparison, ParameterRecord};
 
 /// One version of a model.
@@ -60,11 +60,16 @@ pub struct Version<'a> {
 /// it where there is none.
 pub fn precursors(effects: &[Vec<String>]) -> Vec<Option<usize>> {
     let of = |(place, own): (usize, &Vec<String>)| {
-        let earlier = (0..place).filter(|&i| effects[i].iter().all(|name| own.contains(name)));
+        let earlier = (0..place).filter(|&i| is_among(&effects[i], own));
         let most = earlier.max_by_key(|&i| (effects[i].len(), i));
         most.or_else(|| place.checked_sub(1))
     };
     effects.iter().enumerate().map(of).collect()
+}
+
+/// Whether all of these effects are among others.
+pub fn is_among(effects: &[String], others: &[String]) -> bool {
+    effects.iter().all(|name| others.contains(name))
 }
 
 /// The versions in the order given, each with what it gains over the one that it is judged against.
@@ -78,7 +83,11 @@ pub fn ladder(versions: &[Version<'_>]) -> Vec<LadderStep> {
             fit_chi2_per_point: now.fit.chi2_per_point,
             holdout_chi2_per_point: now.holdout.chi2_per_point,
             rms_um: now.rms_um,
-            parameters: parameters(now, before.map(|before| before.comparison)),
+            parameters: parameters(
+                now,
+                (before.filter(|before| is_among(before.effects, version.effects)))
+                    .map(|before| before.comparison),
+            ),
             against: before.map(|before| before.study.to_owned()),
             improvement: before.map(|before| Improvement::between(before.comparison, now)),
             sound: now.converged && now.parameters.iter().all(|p| !p.at_bound),
@@ -87,7 +96,8 @@ pub fn ladder(versions: &[Version<'_>]) -> Vec<LadderStep> {
     versions.iter().map(step).collect()
 }
 
-/// The parameters of a version; those that it has beyond the one `before` without intervals where they better nothing, as where they are added.
+/// The parameters of a version; those that it has beyond the one `before` without intervals where they better nothing, as where they are added, and do not make
+/// the tests agree either.
 fn parameters(now: &Comparison, before: Option<&Comparison>) -> Vec<ParameterRecord> {
     let mut parameters = now.parameters.clone();
     let Some(before) = before else {
@@ -96,7 +106,8 @@ fn parameters(now: &Comparison, before: Option<&Comparison>) -> Vec<ParameterRec
     let is_known =
         |own: &ParameterRecord| before.parameters.iter().any(|known| known.name == own.name);
     let gain = evidence_gained(before, now);
-    if betters_nothing(before.fit.chi2_per_point, gain, &now.fit) {
+    let scatter = [before, now].map(|version| version.coefficient_scatter);
+    if betters_nothing(before.fit.chi2_per_point, gain, &now.fit) && !agree(scatter) {
         for own in parameters.iter_mut().filter(|own| !is_known(own)) {
             own.interval_95 = None;
         }

@@ -36,7 +36,7 @@ pub use add_learned::{AddLearnedError, LearnedAddition, add_learned};
 pub use compare::{CompareError, CompareStage, Compared, Watch, compare, contact_of};
 pub use curves::{Curve, CurvePoint, curves};
 pub use fit_warnings::data_warnings;
-pub use ladder::{Improvement, LadderStep, Version, ladder, precursors};
+pub use ladder::{Improvement, LadderStep, Version, is_among, ladder, precursors};
 pub use left_out::{LeftOut, left_out};
 pub use prospects::{Prospects, prospects};
 pub use questions::questions;

@@ -23,6 +23,22 @@ pub struct Evidence {
     /// Effects fitted together with a discrepancy; none where nothing smooth is missed.
     #[serde(default)]
     pub beside_unknown: Vec<RemainderEvidence>,
+    /// Free factors on k by the place on the flank, fitted instead of a sum of waves that leads; none where none does.
+    #[serde(default)]
+    pub place_laws: Vec<PlaceLawEvidence>,
+}
+
+/// A factor on k as a free smooth function of the place on the flank, fitted instead of a sum of waves along the profile.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PlaceLawEvidence {
+    /// The effects that it was fitted beside; empty: none.
+    pub beside: EffectSet,
+    /// The sum of waves.
+    pub instead_of: EffectSet,
+    /// `learned:s`, `learned:radius:pinion`.
+    pub law: String,
+    /// ln Z(effects and law) over the base model's.
+    pub evidence_gain: f64,
 }
 
 /// An effect judged beside something unknown.

@@ -1,6 +1,6 @@
 //! All fitted candidates with what the decision says of them.
 
-use super::evidence::{CandidateEvidence, Evidence, RemainderEvidence};
+use super::evidence::{CandidateEvidence, Evidence, PlaceLawEvidence, RemainderEvidence};
 use super::rule::DecisionRule;
 use super::verdict::{Decision, decide};
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
@@ -9,6 +9,7 @@ use crate::learn::checks::identifiability::unidentified;
 use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
 use crate::learn::model_search::beside_unknown::{BesideUnknown, WithDiscrepancy};
+use crate::learn::model_search::place_laws::PlaceLaw;
 
 /// Everything fitted, and the decision on it.
 pub(in crate::learn) struct JudgedCandidates {
@@ -30,6 +31,7 @@ impl JudgedCandidates {
         base: &BaseFit,
         candidates: Vec<FittedCandidate>,
         discrepancy: WithDiscrepancy,
+        place_laws: Vec<PlaceLaw>,
         smooth: &SmoothDiscrepancy,
         rule: DecisionRule,
     ) -> Self {
@@ -50,6 +52,14 @@ impl JudgedCandidates {
             unknown_evidence_gain: discrepancy.alone - base.log_evidence,
             beside_unknown: (discrepancy.effects.iter())
                 .map(|beside| remainder(likelihood, beside))
+                .collect(),
+            place_laws: (place_laws.into_iter())
+                .map(|law| PlaceLawEvidence {
+                    beside: law.beside,
+                    instead_of: law.instead_of,
+                    law: law.name,
+                    evidence_gain: law.log_evidence - base.log_evidence,
+                })
                 .collect(),
         };
         Self {

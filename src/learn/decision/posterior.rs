@@ -36,13 +36,21 @@
 //! effects: one of the two is there, and the other may but follow the unknown. Each gets a part in proportion to the square of its own Δ ln Z_R alone (a half where
 //! both gain nothing); of a free shape's part, of which o/(1 + o) would be unknown's, that goes to the other one.
 //!
+//! A sum of waves along the profile follows whatever acts by its place on the flank, and a profile wears away where a factor on k at that place does not.
+//! Of what is a form's own that holds such waves, a law of the place fitted instead of them takes its part, and what it stands beside (R, or nothing) is
+//! then beside something unknown. The odds of a law alone are those of something unknown alone to one effect beside it:
+//!
+//! ```text
+//! from c to R and unknown, to unknown:   ln odds = (Δ ln Z_law − Δ ln Z_c)/T + (effects of R + 1 − effects of c) ln(o_R/n)
+//! ```
+//!
 //! Δ ln Z_R is the smaller of two figures: with the discrepancy that is most probable without the effect, and with every kind and size of it. By the
 //! first the discrepancy has taken what it can of the effect already, by the second anything that mends the discrepancy is an effect. The share w of
 //! R among the named is the mean of what both give, e^(Δ ln Z_R/T) over its sum, where both are above 0.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::evidence::{CandidateEvidence, Evidence, RemainderEvidence};
+use super::evidence::{CandidateEvidence, Evidence, PlaceLawEvidence, RemainderEvidence};
 use super::rule::DecisionRule;
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
 use crate::numeric::logarithm::{log_sum_exp, softplus};
@@ -80,6 +88,7 @@ pub(super) fn log_probabilities(
     add(Hypothesis::NothingMissing, rule.prior_nothing.ln());
     // of the same pattern as an effect: not shared with that effect beside something else
     let mut other_causes = vec![f64::NEG_INFINITY];
+    let mut by_place: Vec<(Hypothesis, f64)> = Vec::new();
     let (mut leading, mut cap) = (f64::NEG_INFINITY, f64::INFINITY);
     for c in &candidates {
         let log = most - (most - log_posterior(c)) / rule.temper;
@@ -97,15 +106,21 @@ pub(super) fn log_probabilities(
                 (rule.pair_share - share - rule.pair_share_spreads * doubt) / rule.pair_share_width
             }
         };
+        let instead = laws_instead_of(c, evidence, rule, count);
+        let taken = softplus(log_sum_exp(
+            &instead.iter().map(|law| law.1).collect::<Vec<_>>(),
+        ));
+        let own_part = log - softplus(odds) - taken;
+        by_place.extend((instead.into_iter()).map(|(h, odds)| (h, own_part + odds)));
         let own = Hypothesis::Effects(c.effects.clone());
         match stronger_alone(&candidates, c) {
             Some((stronger, second)) => {
                 let mends = (rule.second_share - second) / rule.second_share_width;
-                add(own, log - softplus(odds) - softplus(mends));
+                add(own, own_part - softplus(mends));
                 let stronger = Hypothesis::Effects(stronger.clone());
-                add(stronger, log - softplus(odds) - softplus(-mends));
+                add(stronger, own_part - softplus(-mends));
             }
-            None => add(own, log - softplus(odds)),
+            None => add(own, own_part),
         }
         add(Hypothesis::Unknown, log - softplus(-odds));
         if !c.identified {
@@ -127,10 +142,44 @@ pub(super) fn log_probabilities(
     share_with_remainders(&mut logs, evidence, rule, [count, pairs]);
     let unknown = [logs[&Hypothesis::Unknown], log_sum_exp(&other_causes)];
     logs.insert(Hypothesis::Unknown, log_sum_exp(&unknown));
+    for (hypothesis, log) in by_place {
+        // what was not fitted beside something unknown has no weight there
+        let to = if logs.contains_key(&hypothesis) {
+            hypothesis
+        } else {
+            Hypothesis::Unknown
+        };
+        let both = log_sum_exp(&[logs[&to], log]);
+        logs.insert(to, both);
+    }
     let all: Vec<f64> = logs.values().copied().collect();
     let total = log_sum_exp(&all);
     (logs.into_iter())
         .map(|(hypothesis, log)| (hypothesis, log - total))
+        .collect()
+}
+
+/// The hypotheses that laws of the place make of a form that holds a sum of waves, with the ln odds of each to that form.
+fn laws_instead_of(
+    c: &CandidateEvidence,
+    evidence: &Evidence,
+    rule: &DecisionRule,
+    singles: f64,
+) -> Vec<(Hypothesis, f64)> {
+    let replaces = |law: &&PlaceLawEvidence| c.effects.contains(&law.instead_of);
+    let odds = |law: &PlaceLawEvidence| {
+        let gain = (law.evidence_gain - c.evidence_gain) / rule.temper;
+        let [own, beside] = [&c.effects, &law.beside].map(|set| set.len() as f64);
+        let fewer = (beside + 1.0 - own) * (rule.remainder_odds / singles).ln();
+        let hypothesis = if law.beside.is_empty() {
+            Hypothesis::Unknown
+        } else {
+            Hypothesis::EffectsAndUnknown(law.beside.clone())
+        };
+        (hypothesis, gain + fewer)
+    };
+    (evidence.place_laws.iter().filter(replaces))
+        .map(odds)
         .collect()
 }
 

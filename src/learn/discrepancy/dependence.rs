@@ -90,12 +90,18 @@ pub(in crate::learn) fn drivers(
     } else {
         0.0
     };
-    let member = seen.share(&members, &constant(rows));
+    // a place, a depth or a member that no row differs by is the constant
+    let differs = |values: &[f64]| values.iter().any(|value| *value != values[0]);
+    let member = match members.iter().any(|member| *member != members[0]) {
+        true => seen.share(&members, &constant(rows)),
+        false => 0.0,
+    };
     let place = by(&|o| map.path(o).or(o.position).unwrap_or(0.0));
     let waves = waves(&seen.kinds, &place, ALONG);
-    let position = seen
-        .share(&all, &waves)
-        .max(seen.share(&members, &waves) - member);
+    let position = match differs(&place) {
+        true => (seen.share(&all, &waves)).max(seen.share(&members, &waves) - member),
+        false => 0.0,
+    };
     let cycles = [f64::ln_1p, |n| n]
         .map(|scale| polynomials(&seen.kinds, &by(&|o| scale(o.cycles)), OVER_CYCLES))
         .map(|functions| seen.share(&all, &functions));
@@ -103,7 +109,10 @@ pub(in crate::learn) fn drivers(
     let depths: Vec<f64> = (0..rows)
         .map(|i| if of_depths(i) { model[i] } else { 0.0 })
         .collect();
-    let depth = seen.share(&all, &polynomials(&seen.kinds, &depths, OVER_DEPTH));
+    let depth = match differs(&depths) {
+        true => seen.share(&all, &polynomials(&seen.kinds, &depths, OVER_DEPTH)),
+        false => 0.0,
+    };
     let others = [
         ("position", position),
         ("member", member),

@@ -4,7 +4,7 @@ use super::candidate_tests::{changes, duration, strength};
 use super::decided::Decided;
 use super::plan::{RankedTest, Separated};
 use super::wording::{grade, is_telling, tells_something};
-use crate::learn::decision::Verdict;
+use crate::learn::decision::{SURE, Verdict};
 use crate::numeric::written::{probability, rounded_down};
 use crate::study::{Operation, Role, Test};
 
@@ -110,7 +110,11 @@ pub(super) fn left_open(
                 .to_owned()
         }
         Verdict::NothingMissing => format!(
-            "The diagnosis finds nothing missing ({} %){}. ",
+            "The diagnosis {} ({} %){}. ",
+            match first.probability < SURE {
+                true => "is undecided: most likely nothing is missing",
+                false => "finds nothing missing",
+            },
             rounded_down(100.0 * first.probability, 0),
             match best.separates.iter().find(|pair| is_telling(pair)) {
                 Some(Separated {

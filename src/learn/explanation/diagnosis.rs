@@ -7,13 +7,15 @@ use serde::{Deserialize, Serialize};
 use super::findings::Findings;
 use super::ranked::{Ranked, form, parameters, ranked};
 use super::remainder::{Remainder, established, remainder};
-use super::sentences::{SURE, is_within_analytic_error, undecided};
+use super::sentences::{is_within_analytic_error, undecided};
 use super::warnings::warnings;
 use super::wording::Explanation;
 use crate::learn::checks::goodness_of_fit::GoodnessOfFit;
 use crate::learn::checks::sufficiency::few;
 use crate::learn::decision::judged_candidates::JudgedCandidates;
-use crate::learn::decision::{DecisionRule, RemainderEvidence, Verdict};
+use crate::learn::decision::{
+    Decision, DecisionRule, PlaceLawEvidence, RemainderEvidence, SURE, Verdict,
+};
 use crate::learn::discrepancy::dependence::{self, Driver};
 use crate::learn::discrepancy::residual_drivers::{self, ResidualDrivers};
 use crate::learn::discrepancy::smooth::MapPoint;
@@ -93,6 +95,9 @@ pub struct Diagnosis {
     pub screened: Vec<Screened>,
     /// Effects fitted beside something unknown.
     pub beside_unknown: Vec<RemainderEvidence>,
+    /// Factors on k by the place on the flank, fitted instead of a sum of waves along the profile that leads.
+    #[serde(default)]
+    pub place_laws: Vec<PlaceLawEvidence>,
     /// The thresholds by which this was decided.
     pub rule: DecisionRule,
     /// Whether what leads leaves no more than noise, or than the analytic model's own error where that decides in place of finite elements; not part
@@ -236,10 +241,11 @@ impl Diagnosis {
             next_experiment,
             screened: screened(context, posterior),
             beside_unknown: posterior.evidence.beside_unknown.clone(),
+            place_laws: posterior.evidence.place_laws.clone(),
             rule: posterior.rule,
             warnings: warnings(context, base, posterior, &findings.not_fitted),
             sparse_regression: names(findings.sparse_regression),
-            leaves_only_noise: {
+            leaves_only_noise: is_named(decision) && {
                 let fitted = leader.unwrap_or(&base.fitted);
                 let is_own_error =
                     || context.approximate && is_within_analytic_error(likelihood, fitted);
@@ -247,6 +253,16 @@ impl Diagnosis {
             },
             not_judged: findings.not_judged,
         }
+    }
+}
+
+/// Whether effects of the catalogue are named, if only as a group, and neither nothing nor something unknown may stand in their place.
+fn is_named(decision: &Decision) -> bool {
+    let is_effect = |hypothesis: &Hypothesis| hypothesis.effects().is_some();
+    match decision.verdict {
+        Verdict::Effect | Verdict::Effects => true,
+        Verdict::Ambiguous => decision.group.iter().all(is_effect),
+        Verdict::NothingMissing | Verdict::Partial | Verdict::Unknown => false,
     }
 }
 

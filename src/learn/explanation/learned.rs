@@ -11,6 +11,7 @@ impl Diagnosis {
         if let Some(learned) = &learned {
             self.reasons.push(sentence(learned));
             let add = match carries_over(learned) {
+                _ if !learned.worse_tests.is_empty() => None,
                 Some(true) => Some("and see the held-out error fall"),
                 None => Some("and hold a test out to see whether the law carries over"),
                 // it describes the fitted tests and no others
@@ -59,6 +60,16 @@ fn sentence(learned: &LearnedAnswer) -> String {
     } else {
         ""
     };
+    let worse: Vec<String> = (learned.worse_tests.iter())
+        .map(|(test, [before, after])| format!("of test {test} from {before:.2} to {after:.2}"))
+        .collect();
+    let worse = match worse.is_empty() {
+        true => String::new(),
+        false => format!(
+            " It raises χ² per point {}: do not add it. What acts differs from test to test, or depends on something else.",
+            worse.join(", ")
+        ),
+    };
     let stopped = if learned.converged {
         ""
     } else {
@@ -77,7 +88,7 @@ fn sentence(learned: &LearnedAnswer) -> String {
     let variable = variables::find(&learned.driver);
     let meaning = variable.map_or(String::new(), |v| format!(" ({})", v.meaning));
     format!(
-        "A learned law: k times {:.2} to {:.2}{on}, following {}{meaning}, takes χ² per point from {before:.2} to {after:.2}{held} ({by}){next}.{stopped}{not}",
+        "A learned law: k times {:.2} to {:.2}{on}, following {}{meaning}, takes χ² per point from {before:.2} to {after:.2}{held} ({by}){next}.{stopped}{not}{worse}",
         least.exp(),
         most.exp(),
         learned.driver
@@ -108,5 +119,15 @@ mod tests {
         assert!(!sentence(&answer(Some(true))).contains(says));
         let said = sentence(&answer(Some(false)));
         assert!(said.contains(says) && said.contains("1.65"), "{said}");
+    }
+
+    #[test]
+    fn a_law_that_leaves_a_test_worse_is_not_to_be_added() {
+        let said = sentence(&LearnedAnswer {
+            worse_tests: vec![("R1".to_owned(), [0.93, 2.44])],
+            ..answer(None)
+        });
+        let says = "It raises χ² per point of test R1 from 0.93 to 2.44: do not add it.";
+        assert!(said.contains(says), "{said}");
     }
 }

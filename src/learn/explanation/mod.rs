@@ -4,6 +4,7 @@ mod diagnosis;
 pub(in crate::learn) mod findings;
 mod learned;
 mod outlook;
+mod place_laws;
 mod ranked;
 mod remainder;
 mod rivals;

@@ -8,9 +8,12 @@ use crate::learn::checks::identifiability::unidentified;
 use crate::learn::decision::Decision;
 use crate::learn::experiment::next::NextExperiment;
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
+use crate::numeric::written::significant;
 
 /// Probability below which a rival is not worth a word.
 const IMPROBABLE: f64 = 0.01;
+/// χ² between what two fits predict below which they do the same.
+const ONE_LAW: f64 = 0.5;
 
 /// Where several are as probable: what they are, what stands in all of them, and the next step.
 pub(super) fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Explanation {
@@ -69,7 +72,7 @@ pub(super) fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) 
         (None, Some((card, _))) => {
             format!("to show whether it is {}: {}", card.name, card.separated_by)
         }
-        (None, None) => "no test made like these tells them apart clearly: gearwear plan STUDY ranks others; or add each in turn and see which lowers the held-out error".to_owned(),
+        (None, None) => one_law(findings, &rivals).unwrap_or_else(|| "no test made like these tells them apart clearly: gearwear plan STUDY ranks others; or add each in turn and see which lowers the held-out error".to_owned()),
     };
     Explanation {
         sentence: format!(
@@ -80,6 +83,33 @@ pub(super) fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) 
         reasons: in_all.into_iter().chain(reason).collect(),
         next_step,
     }
+}
+
+/// That the two leading effects, as fitted, predict the same in all rows: other names of one law, of which no test tells.
+fn one_law(findings: &Findings<'_>, rivals: &[(&Hypothesis, f64)]) -> Option<String> {
+    let [(one, _), (other, _), ..] = rivals else {
+        return None;
+    };
+    let fits = [one, other].map(|hypothesis| match hypothesis {
+        Hypothesis::Effects(effects) => findings.posterior.best_form(effects),
+        _ => None,
+    });
+    let [Some(first), Some(second)] = fits else {
+        return None;
+    };
+    let models = first.found.model.iter().zip(&second.found.model);
+    let apart: Vec<f64> = models.map(|(a, b)| a - b).collect();
+    let white = findings.context.likelihood.covariance.whiten(&apart);
+    let square: f64 = white.iter().map(|x| x * x).sum();
+    (square < ONE_LAW).then(|| {
+        format!(
+            "{} and {} predict the same in all rows ({} of χ² apart): they may be two names of one law, which more tests of this kind do not tell apart. Add the one that makes sense for these \
+             parts (`gearwear effects NAME` says what each stands for)",
+            one.in_words(),
+            other.in_words(),
+            significant(square, 1)
+        )
+    })
 }
 
 /// What cannot be told apart, the most probable first: the decision's group, in which something unknown stands for itself alone and beside each

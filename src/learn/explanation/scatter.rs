@@ -39,8 +39,8 @@ pub(super) fn of_scatter(
     other_question: bool,
 ) -> String {
     let what = match made_twice {
-        None if other_question => "a test made twice tells them apart, which is another question than the one that the next experiment answers".to_owned(),
-        None => "a test made twice tells them apart".to_owned(),
+        None if other_question => "how much of it is chance a test made twice would show, which is another question than the one that the next experiment answers".to_owned(),
+        None => "how much of it is chance a test made twice would show".to_owned(),
         Some(MadeTwice { ids: [a, b], difference }) => format!(
             "{a} and {b}, made under the same conditions, differ in k by {:.0} %: {}{}",
             100.0 * difference.exp_m1(),
@@ -74,7 +74,7 @@ mod tests {
             ids: ["A1".to_owned(), "A2".to_owned()],
             difference,
         };
-        assert!(of_scatter(0.3, None, false).ends_with("a test made twice tells them apart."));
+        assert!(of_scatter(0.3, None, false).ends_with("a test made twice would show."));
         let other = of_scatter(0.3, None, true);
         assert!(other.contains("another question than"), "{other}");
         let chance = of_scatter(0.3, Some(&twice(0.28)), true);

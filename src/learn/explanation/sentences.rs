@@ -2,6 +2,7 @@
 
 use super::findings::Findings;
 use super::outlook::Outlook;
+use super::place_laws;
 use super::remainder::partial;
 use super::rivals::ambiguous;
 use super::scatter::{made_twice, of_scatter};
@@ -15,7 +16,7 @@ use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::checks::scatter_trend::trend_of_scatter;
 use crate::learn::checks::sufficiency::{few, measured_once};
 use crate::learn::decision::judged_candidates::JudgedCandidates;
-use crate::learn::decision::{Decision, Verdict};
+use crate::learn::decision::{Decision, SURE, Verdict};
 use crate::learn::discrepancy::dependence::Driver;
 use crate::learn::experiment::next::NextExperiment;
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
@@ -23,9 +24,6 @@ use crate::learn::model_search::context::Context;
 use crate::learn::model_search::second_effects;
 use crate::numeric::written::significant;
 
-/// Probability of nothing missing below which that is undecided. Of the blind sets of the second and third series with 0.8 or more,
-/// 65 of 72 hide nothing and the others an effect of d < 6; of those with 0.5 to 0.8, 31 of 48, and one an effect of d ≥ 6.
-pub(super) const SURE: f64 = 0.8;
 /// Scatter of k between tests from which it is worth a sentence.
 const LARGE_SCATTER: f64 = 0.2;
 /// Probability of nothing missing from which the next effect is not worth a sentence.
@@ -72,6 +70,7 @@ impl Explanation {
             (Verdict::Unknown, _) => unknown(findings),
             _ => nothing_missing(findings, next),
         };
+        all.reasons.extend(place_laws::instead_of_waves(findings));
         if let Some(driver) = driver {
             let is_explained = matches!(decision.verdict, Verdict::Effect | Verdict::Effects);
             all.reasons.extend(depends_on(driver, is_explained));
@@ -80,10 +79,22 @@ impl Explanation {
             all.reasons.extend(why_not_the_runner_up(findings));
         }
         // what the tests' own k follow is a law of some cause, which no name explains yet; where nothing is missing it is said in place of their scatter
-        if matches!(decision.verdict, Verdict::Ambiguous | Verdict::Unknown) {
-            let state = &findings.base.fitted.found.state;
+        let named = match decision.verdict {
+            Verdict::NothingMissing => None,
+            Verdict::Ambiguous | Verdict::Unknown => Some(&findings.base.fitted),
+            Verdict::Effect | Verdict::Effects | Verdict::Partial => {
+                findings.posterior.leading_fit(findings.base)
+            }
+        };
+        if let Some(spoken_of) = named {
+            let state = &spoken_of.found.state;
             let trend = trend_of_scatter(&findings.context.likelihood, state);
-            all.reasons.extend(trend);
+            let with = match &spoken_of.candidate.effects {
+                none if none.is_empty() => String::new(),
+                effects => format!("With {} in, ", effects.in_words()),
+            };
+            all.reasons
+                .extend(trend.map(|trend| format!("{with}{trend}.")));
         }
         for missing in &findings.not_judged {
             all.reasons.push(format!(

@@ -92,8 +92,7 @@ fn of_sigma(
 ) -> Vec<String> {
     let mut warnings = Vec::new();
     let sigma = likelihood.noise.sigma;
-    let estimated = likelihood.measured.data.estimates_sigmas();
-    warnings.extend(noise_level::replaced_in_words(sigma, estimated));
+    warnings.extend(noise_level::replaced(likelihood));
     let new_profile_um = likelihood.noise.new_profile_um;
     if new_profile_um > likelihood.measured.study().noise.new_profile_um {
         warnings.push(format!(
@@ -222,8 +221,14 @@ fn of_fits(base: &BaseFit, posterior: &JudgedCandidates) -> Vec<String> {
         } else if decision.verdict == Verdict::Ambiguous {
             let rivals = decision.group.iter();
             let rivals = rivals.filter_map(|rival| Some((rival, posterior.fitted(base, rival)?)));
+            // what is fitted to nothing may have any size
+            let does_something = |(_, fitted): &(&Hypothesis, &FittedCandidate)| {
+                base.fitted.square - fitted.square > 2.0 * SETTLED
+            };
             warnings.extend(
-                rivals.flat_map(|(rival, fitted)| unheard_of(fitted, &format!("{rival}: "))),
+                rivals
+                    .filter(does_something)
+                    .flat_map(|(rival, fitted)| unheard_of(fitted, &format!("{rival}: "))),
             );
         }
     }
@@ -246,15 +251,18 @@ fn unsettled_form(posterior: &JudgedCandidates, leader: &FittedCandidate) -> Opt
         let of = |fitted: &FittedCandidate| fitted.candidate.forms[n].map(|form| form.name);
         as_good.iter().any(|other| of(other) != of(leader))
     };
+    let is_untried = |n: usize, card: &Card| {
+        let of = |fitted: &FittedCandidate| fitted.candidate.forms[n].map(|form| form.name);
+        !card.forms.is_empty() && others.iter().all(|other| of(other) == of(leader))
+    };
     let open: Vec<(usize, &'static Card)> = (cards.enumerate())
-        .filter(|(n, card)| differs(*n) || as_good.is_empty() && !card.forms.is_empty())
+        .filter(|&(n, card)| differs(n) || as_good.is_empty() && is_untried(n, card))
         .collect();
     let as_good: Vec<String> = (as_good.iter())
         .map(|other| form_in_words(other, &open))
         .collect();
     let of_open = EffectSet::new(open.iter().map(|(_, card)| *card));
-    let has_forms = effects.cards().iter().any(|card| !card.forms.is_empty());
-    let one_alone = effects.len() > 1 && has_forms && others.is_empty();
+    let one_alone = effects.len() > 1 && as_good.is_empty() && !open.is_empty();
     form_warning(
         &of_open.in_words(),
         &form_in_words(leader, &open),
@@ -273,7 +281,11 @@ pub(super) fn other_forms<'p>(
     let others: Vec<&FittedCandidate> = own
         .filter(|other| other.candidate.effects == *effects && form(other) != form(leader))
         .collect();
-    let is_as_good = |other: &&FittedCandidate| leader.log_evidence - other.log_evidence < SETTLED;
+    // by the fit too: evidence allows for an error of the form
+    let is_as_good = |other: &&FittedCandidate| {
+        leader.log_evidence - other.log_evidence < SETTLED
+            && other.square - leader.square < 2.0 * SETTLED
+    };
     let as_good = others.iter().copied().filter(is_as_good).collect();
     (others, as_good)
 }
@@ -347,7 +359,9 @@ fn unheard_of(fitted: &FittedCandidate, whose: &str) -> Vec<String> {
     let outside = added.filter_map(|(parameter, &natural)| {
         let value = parameter.value(natural);
         let [low, high] = [0.5 * UNHEARD_OF, 1.0 - 0.5 * UNHEARD_OF].map(|p| parameter.quantile(p));
-        (value < low || value > high).then(|| {
+        let is_outside = value < low || value > high;
+        let looks_inside = [low, high].map(|end| significant(end, 2)).contains(&significant(value, 2));
+        (is_outside && !looks_inside).then(|| {
             format!(
                 "{whose}{} would be {}, where nearly all of the catalogue's prior lies between {} and {}: the name holds only if such a size makes sense here",
                 parameter.name,

@@ -111,12 +111,18 @@ pub(super) fn values(j: &FittedCandidate) -> String {
 /// The commands that add a candidate's effects in its forms, one after the other.
 pub(super) fn added(candidate: &Candidate) -> String {
     let several = candidate.effects.len() > 1;
-    let added = candidate.added_forms().map(|(card, form)| match form {
-        None if several => format!("gearwear add STUDY {} --form own", card.name),
-        None => format!("gearwear add STUDY {}", card.name),
-        Some(form) => format!("gearwear add STUDY {} --form \"{}\"", card.name, form.name),
+    let added = (candidate.added_forms().enumerate()).map(|(n, (card, form))| {
+        let study = if n == 0 { "STUDY" } else { "NEW" };
+        match form {
+            None if several => format!("gearwear add {study} {} --form own", card.name),
+            None => format!("gearwear add {study} {}", card.name),
+            Some(form) => format!(
+                "gearwear add {study} {} --form \"{}\"",
+                card.name, form.name
+            ),
+        }
     });
-    (added.collect::<Vec<_>>()).join(", then the same with the new study: ")
+    (added.collect::<Vec<_>>()).join(", then, with the study that it writes as NEW, ")
 }
 
 #[cfg(test)]

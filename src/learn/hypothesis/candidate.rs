@@ -343,7 +343,11 @@ fn of_form(
     study: &Study,
 ) -> Option<(Candidate, Vec<FreeParameter>)> {
     // A form's settings lie in the ranges of its card: tests walk the catalogue.
-    let accepted = |form| {
+    let [pinion, gear] = [&study.gears.pinion, &study.gears.gear].map(|gear| gear.spec.teeth);
+    let accepted = |form: Option<&'static Form>| {
+        if pinion == gear && form.is_some_and(|form| form.of_ratio) {
+            return None;
+        }
         let spec = EffectSpec::of_form(card, form, &[]).ok()?;
         study.suits(&spec).then_some(spec)
     };

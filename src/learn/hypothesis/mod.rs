@@ -79,6 +79,12 @@ impl EffectSet {
         self.names().collect::<Vec<_>>().join(" and ")
     }
 
+    /// Those that are not among `other`.
+    pub fn without(&self, other: &Self) -> Self {
+        let kept = self.0.iter().copied();
+        Self::new(kept.filter(|card| other.names().all(|name| name != card.name)))
+    }
+
     /// How many they are.
     pub fn len(&self) -> usize {
         self.0.len()

@@ -37,10 +37,18 @@ const DRIVERS: &[&str] = &[
     "speed",
     "bulk_temperature",
 ];
+/// Those of them that are places on the flank.
+const PLACES: &[&str] = &["s", "radius:pinion", "radius:gear"];
 /// How many of them are fitted with every size and length.
 const CLOSELY: usize = 3;
+/// The same of places alone.
+const PLACES_CLOSELY: usize = 2;
 /// Gain of ln evidence below which no law is told of: the prior odds against one of so many drivers, and a thousand beside.
 const LEAST_GAIN: f64 = 10.0;
+
+/// χ² per point from which a test is left with more than noise, and the factor by which it has risen then for a law to have made it worse.
+const NOT_NOISE: f64 = 1.5;
+const RISEN: f64 = 1.25;
 
 /// A law learned from the measurements.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -76,6 +84,9 @@ pub struct LearnedAnswer {
     /// Whether its fit converged: if not, the values are those at which it stopped.
     #[serde(default = "yes")]
     pub converged: bool,
+    /// Fit tests that it leaves worse than they were, each with χ² per point without the law and with it: what acts there differs from test to test.
+    #[serde(default)]
+    pub worse_tests: Vec<(String, [f64; 2])>,
     /// The other drivers: those that the same model looked at, then those that only the analytic one did; the best of each first.
     pub others: Vec<OtherDriver>,
 }
@@ -137,18 +148,40 @@ pub(in crate::learn) fn learned_driver(
     context: &Context<'_>,
     known: &FittedCandidate,
 ) -> Option<LearnedAnswer> {
-    let screened = screened(context, known)?;
+    let screened = screened(context, known, DRIVERS, CLOSELY)?;
     // a study whose own model is the analytic one is decided by it
     if context.fidelity == Fidelity::Screening {
         return answer(context, &screened, screened.others(1).collect());
     }
-    let decided = decided(context, known, &screened)?;
+    let decided = decided(context, known, &screened, CLOSELY)?;
     let others = decided.others(1).chain(screened.others(CLOSELY)).collect();
     answer(context, &decided, others)
 }
 
-/// Every driver by the analytic model, the best few with every size and length of the process.
-fn screened(context: &Context<'_>, known: &FittedCandidate) -> Option<FittedLaws> {
+/// The law of a place on the flank beside what is `known` that has the greatest evidence, and its gain over the same without it; None where it is not
+/// worth its freedom.
+pub(in crate::learn) fn place_law(
+    context: &Context<'_>,
+    known: &FittedCandidate,
+) -> Option<(String, f64)> {
+    let screened = screened(context, known, PLACES, PLACES_CLOSELY)?;
+    let own = context.fidelity == Fidelity::Screening;
+    let ranked = if own {
+        screened
+    } else {
+        decided(context, known, &screened, PLACES_CLOSELY)?
+    };
+    let answer = answer(context, &ranked, Vec::new())?;
+    Some((answer.name, answer.evidence_gain))
+}
+
+/// Each of these drivers by the analytic model, the best few with every size and length of the process.
+fn screened(
+    context: &Context<'_>,
+    known: &FittedCandidate,
+    drivers: &[&str],
+    closely: usize,
+) -> Option<FittedLaws> {
     let likelihood = &context.likelihood;
     let (measured, version) = (likelihood.measured, &known.candidate.version);
     let own = context.fidelity == Fidelity::Screening;
@@ -164,7 +197,7 @@ fn screened(context: &Context<'_>, known: &FittedCandidate) -> Option<FittedLaws
     };
     let without = without(context, known, bench, noise)?;
     let study = measured.study();
-    let wanted: Vec<WantedLaw> = (DRIVERS.iter())
+    let wanted: Vec<WantedLaw> = (drivers.iter())
         .filter_map(|name| WantedLaw::of_name(&format!("learned:{name}"), Hook::WearFactor).ok())
         .filter(|law| law.driver.needs.iter().all(|key| study.states(key)))
         .filter(|law| !version.effects.has(&law.name()))
@@ -175,7 +208,7 @@ fn screened(context: &Context<'_>, known: &FittedCandidate) -> Option<FittedLaws
     };
     let glances = wanted.par_iter().filter_map(look).collect();
     let mut laws = FittedLaws::new(without.clone(), glances, Fidelity::Screening).laws;
-    let count = laws.len().min(CLOSELY);
+    let count = laws.len().min(closely);
     let close = |(law, glance): &(WantedLaw, LearnedFit)| {
         let learned = measured.learn(bench, version, &without, law, noise, &|_| {});
         (*law, learned.unwrap_or_else(|_| glance.clone()))
@@ -192,6 +225,7 @@ fn decided(
     context: &Context<'_>,
     known: &FittedCandidate,
     screened: &FittedLaws,
+    closely: usize,
 ) -> Option<FittedLaws> {
     let (bench, noise) = (context.exact, context.likelihood.noise);
     let (measured, version) = (context.likelihood.measured, &known.candidate.version);
@@ -200,7 +234,7 @@ fn decided(
         let found = measured.relearn(bench, version, &without, found, noise);
         Some((*law, found.ok()?))
     };
-    let best = screened.laws.par_iter().take(CLOSELY);
+    let best = screened.laws.par_iter().take(closely);
     let laws = best.filter_map(again).collect();
     Some(FittedLaws::new(without, laws, Fidelity::Full))
 }
@@ -260,8 +294,25 @@ fn answer(
         holdout_chi2_per_point: both(Role::Holdout),
         decided_by: ranked.by,
         converged: best.fit.converged,
+        worse_tests: worse_tests(measured, &ranked.without, &best.fit),
         others,
     })
+}
+
+/// The fit tests that a law leaves worse than they were, by more than the noise of their points and of what is left at all.
+fn worse_tests(measured: &Measured<'_>, without: &Fit, with: &Fit) -> Vec<(String, [f64; 2])> {
+    let tests = measured.study().tests.iter().enumerate();
+    let fitted = tests.filter(|(n, _)| measured.roles[*n] == Role::Fit);
+    let both = fitted.filter_map(|(n, test)| {
+        let of = |fit| mean_square(measured, fit, |of| of == n);
+        Some((test.id.clone(), [of(without)?, of(with)?]))
+    });
+    both.filter(|(_, change)| is_worse(*change)).collect()
+}
+
+/// Whether χ² per point rises by so much, and is then more than noise.
+fn is_worse([before, after]: [f64; 2]) -> bool {
+    after > NOT_NOISE && after > RISEN * before
 }
 
 /// Whether a law is worth its freedom: by its gain of ln evidence, and since it lowers χ² per point of the fit tests. Evidence alone may rise while the
@@ -272,8 +323,17 @@ fn is_worth(gain: f64, [before, after]: [f64; 2]) -> bool {
 
 /// χ² per point of the tests with a role; None if they have no points.
 fn chi2(measured: &Measured<'_>, fit: &Fit, role: Role) -> Option<f64> {
+    mean_square(measured, fit, |test| measured.roles[test] == role)
+}
+
+/// χ² per point of some tests, by their places in the study; None if they have no points.
+fn mean_square(
+    measured: &Measured<'_>,
+    fit: &Fit,
+    is_meant: impl Fn(usize) -> bool,
+) -> Option<f64> {
     let rows = measured.data.observations.iter().zip(&fit.rows);
-    let own = rows.filter(|(o, _)| measured.roles[o.test] == role);
+    let own = rows.filter(|(o, _)| is_meant(o.test));
     let squares: Vec<f64> = own.map(|(_, row)| row.standardised.powi(2)).collect();
     (!squares.is_empty()).then(|| squares.iter().sum::<f64>() / squares.len() as f64)
 }
@@ -281,6 +341,13 @@ fn chi2(measured: &Measured<'_>, fit: &Fit, role: Role) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What acts in one test alone, as a law of all tests, is taken from the others.
+    #[test]
+    fn a_test_that_a_law_leaves_worse_is_told() {
+        assert!(is_worse([0.93, 2.44]));
+        assert!(!is_worse([0.93, 1.2]) && !is_worse([5.0, 5.5]) && !is_worse([5.0, 1.0]));
+    }
 
     /// A law that raises χ² is never offered, whatever its evidence; nor one that gains little.
     #[test]

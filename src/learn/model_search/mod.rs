@@ -19,6 +19,7 @@ mod other_valleys;
 mod pair_exchange;
 pub(in crate::learn) mod pair_fit;
 pub(in crate::learn) mod pairs;
+pub(in crate::learn) mod place_laws;
 mod screening;
 pub(in crate::learn) mod second_effects;
 pub(in crate::learn) mod stages;

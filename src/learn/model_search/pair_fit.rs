@@ -30,6 +30,7 @@ const FOLLOWED: usize = 2;
 const NEAR: f64 = 0.05;
 
 /// Where the fit of a pair begins.
+#[derive(Clone)]
 pub(in crate::learn) struct PairStart {
     pub(in crate::learn) candidate: Candidate,
     pub(in crate::learn) state: State,

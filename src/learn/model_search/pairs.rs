@@ -23,6 +23,10 @@ use crate::learn::prediction::fidelity::Fidelity;
 const PROMISE_SHARE: f64 = 0.06;
 /// Pairs fitted by the middle fidelity, and by finite elements.
 const FITTED: [usize; 2] = [5, 2];
+/// Other forms of each effect of the leading pair that are fitted too, and the share of what the form in it gains alone from which one is.
+const FORMS: usize = 2;
+const NEARLY: f64 = 0.8;
+
 /// The fitted pairs that promise more than the best single effect.
 pub(in crate::learn) fn pairs(
     context: &Context<'_>,
@@ -76,6 +80,16 @@ pub(in crate::learn) fn pairs(
         }
         fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
     }
+    if let Some(pair) = (fitted.first()).filter(|pair| pair.log_evidence > best.log_evidence) {
+        let starts = in_other_forms(base, singles, pair);
+        for other in pair_fit::fit(context, base, starts) {
+            let same = |known: &FittedCandidate| known.candidate.is_same_as(&other.candidate);
+            if !fitted.iter().any(same) {
+                fitted.push(other);
+            }
+        }
+        fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+    }
     if let Some(leader) = fitted.first_mut().filter(|pair| !pair.converged) {
         let start = PairStart {
             candidate: leader.candidate.clone(),
@@ -102,6 +116,34 @@ pub(in crate::learn) fn pairs(
         }
     }
     decided
+}
+
+/// Starts of a pair with either effect in the other forms that do nearly as well alone: which one is right may show beside the other effect only.
+fn in_other_forms(
+    base: &BaseFit,
+    singles: &[FittedCandidate],
+    pair: &FittedCandidate,
+) -> Vec<PairStart> {
+    let gain = |single: &FittedCandidate| single.log_evidence - base.fitted.log_evidence;
+    let parts = singles.iter().filter(|s| pair_exchange::is_part(s, pair));
+    let parts: Vec<&FittedCandidate> = parts.collect();
+    let [one, other] = parts[..] else {
+        return Vec::new();
+    };
+    let with = |kept: &FittedCandidate, changed: &FittedCandidate| -> Vec<PairStart> {
+        let is_form = |s: &&FittedCandidate| {
+            s.candidate.effects == changed.candidate.effects
+                && !s.candidate.is_same_as(&changed.candidate)
+                && gain(s) > NEARLY * gain(changed)
+        };
+        let mut forms: Vec<&FittedCandidate> = singles.iter().filter(is_form).collect();
+        forms.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+        let nearest = forms.into_iter().take(FORMS);
+        nearest
+            .map(|form| PairStart::of(base, kept, form))
+            .collect()
+    };
+    [with(one, other), with(other, one)].concat()
 }
 
 /// What a pair must promise beyond the best single effect to be fitted.

@@ -5,7 +5,7 @@ use super::wide::is_aside;
 use super::{Sheet, cell_name};
 use crate::measure::names::{self, When};
 
-/// The sheet with 0 in the stead of such a word, and what is said of it.
+/// The sheet with 0 instead of such a word, and what is said of it.
 pub(super) fn as_zero(sheet: &Sheet) -> (Sheet, Option<String>) {
     let found = (0..sheet.rows.len()).find_map(|row| Some((row, word(&sheet.rows[row])?)));
     let Some((row, column)) = found else {

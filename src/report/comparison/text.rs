@@ -291,6 +291,13 @@ pub(super) fn next_step(result: &super::Result<'_>) -> String {
             "χ² per point is far below that of noise: sigma seems to be {factor:.1} times the scatter, and what is weak stays hidden behind it (state a \
              smaller one if you know it); gearwear diagnose {name} looks for what shows all the same"
         )
+    } else if fitted_tests(result.comparison).count() > 1
+        && result.comparison.coefficient_scatter > UNLIKE
+    {
+        format!(
+            "χ² per point is that of noise within each test, but k scatters by {} between them: gearwear diagnose {name} looks for what it follows",
+            percent(result.comparison.coefficient_scatter, 2)
+        )
     } else {
         // a trend over many points can be certain below the noise of each
         format!(
@@ -298,6 +305,9 @@ pub(super) fn next_step(result: &super::Result<'_>) -> String {
         )
     }
 }
+
+/// Scatter of k between tests from which it may be a law that the model lacks.
+const UNLIKE: f64 = 0.15;
 
 /// How many standard deviations χ² of the fit tests has to lie below that of noise for sigma to be too large.
 const FAR_BELOW: f64 = 4.0;

@@ -3,8 +3,8 @@ use std::path::Path;
 
 use super::super::comparison::estimate;
 use super::{Result, effects, factor};
-use crate::learn::LadderStep;
 use crate::learn::diagnose::Fidelity;
+use crate::learn::{LadderStep, is_among};
 use crate::numeric::written::significant;
 
 /// The error by which a version is judged: that of the held-out tests, without any that of the fit tests.
@@ -122,7 +122,7 @@ fn needless(result: &Result<'_>, after: &LadderStep) -> Option<String> {
     }
     not_judged(before, after).or_else(|| {
         Some(format!(
-            "From {} to {} the error on {} {} ({} to {}): that step explains nothing new.",
+            "From {} to {} the error on {} {} ({} to {}): {}.",
             before.study,
             after.study,
             if after.holdout_chi2_per_point.is_some() {
@@ -136,7 +136,12 @@ fn needless(result: &Result<'_>, after: &LadderStep) -> Option<String> {
                 "does not fall"
             },
             significant(a, 3),
-            significant(b, 3)
+            significant(b, 3),
+            match is_among(&before.effects, &after.effects) {
+                true => "that step explains nothing new",
+                // neither holds the other
+                false => "the one explains no more than the other",
+            }
         ))
     })
 }

@@ -12,6 +12,9 @@ const MOST_STRAIN: f64 = 0.06;
 const MOST_WEAR: f64 = 0.25;
 /// Share of the whole load in one slice from which the slices are too wide for what carries.
 const MOST_IN_ONE_SLICE: f64 = 0.75;
+/// Young's moduli up to which a material is a plastic, and from which a metal, MPa.
+const PLASTIC: f64 = 30e3;
+const METAL: f64 = 60e3;
 
 /// One sentence for each.
 pub(super) fn implausible(run: &Run) -> Vec<String> {
@@ -38,6 +41,18 @@ pub(super) fn implausible(run: &Run) -> Vec<String> {
             "one of the {slices} slices carries {} % of the load on new flanks: the contact is narrower than a slice, so that pressure and wear depend on how many slices there are; take more of them, and look at \
              lead_slope and crowning and their units",
             significant(100.0 * carried / slices as f64, 2)
+        ));
+    }
+    let [k1, k2] = run.conditions.wear_coefficient;
+    let is_worn = run.last().cycles > 0.0 && k1 == k2;
+    let metal = match [e1, e2] {
+        [plastic, metal] if plastic < PLASTIC && metal > METAL => Some("gear"),
+        [metal, plastic] if plastic < PLASTIC && metal > METAL => Some("pinion"),
+        _ => None,
+    };
+    if let Some(metal) = metal.filter(|_| is_worn) {
+        sentences.push(format!(
+            "a plastic runs against a metal and both wear by one coefficient, which in fact wears the plastic nearly alone: state that of the {metal} by itself, as coefficient under [wear.{metal}]"
         ));
     }
     for member in Member::BOTH {

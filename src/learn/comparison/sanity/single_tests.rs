@@ -10,7 +10,7 @@ use crate::learn::fitting::coefficient_trend::own_coefficients;
 use crate::learn::fitting::fitted::Fit;
 use crate::learn::fitting::test_apart::test_apart;
 use crate::measure::{Dataset, Quantity};
-use crate::study::Study;
+use crate::study::{Operation, Study};
 
 /// Standard deviations of s below 0 from which a single test's sign is doubted.
 const SURE: f64 = 6.0;
@@ -27,6 +27,10 @@ const DATUMS: f64 = 3.0;
 /// How near the ratio a test's k must be, and how near each other those of the other tests, in ln of the ratio.
 const NEAR_RATIO: f64 = 0.1;
 const ALIKE: f64 = 0.3;
+/// The first of these for a test whose speed or temperature, K, lies beyond those of the others by so much.
+const NEAR_RATIO_AT_ANOTHER_SPEED: f64 = 0.03;
+const ANOTHER_SPEED: f64 = 1.3;
+const ANOTHER_TEMPERATURE: f64 = 8.0;
 /// Deviation up to which a torque is another one times the ratio, and the part of ln of the ratio by which k must then be lower.
 const SAME_TORQUE: f64 = 0.002;
 const HALF: f64 = 0.5;
@@ -209,7 +213,12 @@ pub(super) fn of_the_other_member(
             let high = of_others.fold(0.0, f64::max);
             corrected > low / AMONG && corrected < high * AMONG
         };
-        let off_by_ratio = agree && (by.abs() - 1.0).abs() < NEAR_RATIO;
+        // at another speed k may be another one
+        let near = match runs_apart(study, test, &others) {
+            true => NEAR_RATIO_AT_ANOTHER_SPEED,
+            false => NEAR_RATIO,
+        };
+        let off_by_ratio = agree && (by.abs() - 1.0).abs() < near;
         // a test of that torque shows it even where the others scatter
         let twin = others.iter().find(|o| {
             (torque(test) / (ratio * torque(o.0)) - 1.0).abs() < SAME_TORQUE && !is_simple(ratio)
@@ -248,6 +257,20 @@ pub(super) fn of_the_other_member(
         }
     };
     own.iter().filter_map(off).collect()
+}
+
+/// Whether a test runs faster or slower than all `others`, or warmer or cooler.
+fn runs_apart(study: &Study, test: usize, others: &[(usize, f64)]) -> bool {
+    let is_beyond = |of: &dyn Fn(&Operation) -> Option<f64>, by: f64| {
+        let own = of(&study.tests[test].conditions);
+        let all = others.iter().map(|o| of(&study.tests[o.0].conditions));
+        own.zip(all.collect::<Option<Vec<f64>>>())
+            .is_some_and(|(own, all)| {
+                all.iter().all(|other| own > other + by) || all.iter().all(|other| own < other - by)
+            })
+    };
+    is_beyond(&|o| Some(o.speed_rpm.ln()), ANOTHER_SPEED.ln())
+        || is_beyond(&|o| o.bulk_temperature_c, ANOTHER_TEMPERATURE)
 }
 
 /// Whether a ratio is one that tests are chosen by, such as 2 or 3/2.
