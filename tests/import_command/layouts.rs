@@ -80,6 +80,13 @@ fn a_loss_beside_its_weighings_is_passed_over() {
             && written.contains("A,pinion,200000,mass_loss,,141.2,0.3,"),
         "{written}"
     );
+    // of masses without a unit the loss is read, as it was stated
+    let plain = table.replace(" [g]", "");
+    let (_, written) = rows(&home, &plain, "--sigma 0.3");
+    assert!(
+        written.contains("A,pinion,100000,mass_loss,,44.5,0.3,"),
+        "{written}"
+    );
     let wrong = table.replace("96,7", "69,7");
     let message = refused(&home, &wrong, "--sigma 0.3");
     assert!(message.contains("F3: `Pérdida [mg]` says"), "{message}");

@@ -403,6 +403,9 @@ mod tests {
             of_scatter_alone(&rows, &own)
         };
         assert_eq!(of(10, 0.1), SigmaModel::AS_STATED);
+        // half too small looks like bends there, and not on more points
+        assert_eq!(of(10, 0.15), SigmaModel::AS_STATED);
+        assert!(matches!(of(25, 0.15), SigmaModel::Stated { factor } if factor > 1.2));
         // σ that are too small by three are found among few points too
         assert!(matches!(of(10, 0.3), SigmaModel::Stated { factor } if factor > 2.0));
     }

@@ -100,8 +100,8 @@ pub struct Diagnosis {
     pub place_laws: Vec<PlaceLawEvidence>,
     /// The thresholds by which this was decided.
     pub rule: DecisionRule,
-    /// Whether what leads leaves no more than noise, or than the analytic model's own error where that decides in place of finite elements; not part
-    /// of the document.
+    /// Whether effects are named, if only as a group, of which the first leaves no more than noise, or than the analytic model's own error where that decides in
+    /// place of finite elements; not part of the document.
     #[serde(skip)]
     pub leaves_only_noise: bool,
     /// Effects that could not be judged.

@@ -39,7 +39,7 @@ fn sentence(law: &PlaceLawEvidence, best: &CandidateEvidence, ahead: f64) -> Str
         false => format!(" beside {}", law.beside.in_words()),
     };
     format!(
-        "{} follows the flank nearly as well, but a free factor on k by the {meaning} ({}){beside} has {ahead:.0} more of ln evidence: a deviation of the profile \
+        "A fit with {} is nearly as good, but a free factor on k by the {meaning} ({}){beside} has {ahead:.0} more of ln evidence: a deviation of the profile \
          wears away, what acts there does not. So {waves} is not named.",
         best.effects.in_words(),
         law.law
@@ -71,7 +71,7 @@ mod tests {
         };
         let said = sentence(&law, &best, 19.0);
         assert!(
-            said.starts_with("debris_abrasion and profile_form follows"),
+            said.starts_with("A fit with debris_abrasion and profile_form is nearly as good"),
             "{said}"
         );
         assert!(

@@ -405,6 +405,27 @@ mod tests {
         assert_eq!(siblings(&oiled), all);
     }
 
+    /// Contacts of the gear are those of the pinion where both have as many teeth.
+    #[test]
+    fn a_form_that_the_ratio_alone_makes_is_none_of_equal_gears() {
+        let text = include_str!("../../../validation/paper/study.toml");
+        let card = find("running_in").unwrap();
+        let forms = |text: &str| {
+            let study = Study::parse(text, "study.toml").unwrap();
+            let (singles, _) = Candidate::singles(&study);
+            let own = singles
+                .iter()
+                .filter(|c| c.effects == EffectSet::new([card]));
+            own.map(|c| c.siblings).collect::<Vec<_>>()
+        };
+        let all = 1 + card.forms.len();
+        assert_eq!(forms(text), vec![all; all]);
+        let equal = text
+            .replace("teeth = 27\n", "teeth = 40\n")
+            .replace("teeth = 53\n", "teeth = 40\n");
+        assert_eq!(forms(&equal), vec![all - 1; all - 1]);
+    }
+
     /// u cos θ − v sin θ is the wave that `turned` makes of cos θ and cos(θ + π/2).
     #[test]
     fn a_turned_wave_is_the_sum_of_its_two_quarters() {

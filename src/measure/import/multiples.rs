@@ -106,8 +106,8 @@ pub(super) fn in_brackets(header: &str) -> Option<String> {
 
 /// A name and the words beside it that may be a multiple.
 fn multiple_apart(header: &str) -> Option<(&str, &str)> {
-    let behind = [" in ", " en "].iter();
-    if let Some(both) = behind.filter_map(|word| header.rsplit_once(word)).next() {
+    let mut behind = [" in ", " en "].iter();
+    if let Some(both) = behind.find_map(|word| header.rsplit_once(word)) {
         return Some(both);
     }
     let lower = header.to_lowercase();

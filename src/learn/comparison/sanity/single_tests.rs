@@ -376,6 +376,27 @@ pub(super) fn short_of_their_cycles(study: &Study, data: &Dataset) -> Option<Str
 mod tests {
     use super::*;
 
+    /// A test beyond the speeds or temperatures of the others, and not one among them.
+    #[test]
+    fn a_test_at_another_speed_or_temperature_runs_apart() {
+        let study = include_str!("../../../../validation/challenges/none_L2/study.toml");
+        let mut study = Study::parse(study, "study.toml").unwrap();
+        let mut apart = |speeds: [f64; 3], warm: [f64; 3]| {
+            let tests = study.tests.iter_mut().zip(speeds.into_iter().zip(warm));
+            for (test, (speed, celsius)) in tests {
+                test.conditions.speed_rpm = speed;
+                test.conditions.bulk_temperature_c = Some(celsius);
+            }
+            runs_apart(&study, 2, &[(0, 0.0), (1, 0.0)])
+        };
+        assert!(!apart([1500.0, 1000.0, 1200.0], [60.0; 3]));
+        assert!(!apart([1500.0, 1000.0, 1600.0], [60.0; 3]));
+        assert!(apart([1500.0, 1500.0, 3000.0], [60.0; 3]));
+        assert!(apart([1500.0, 1500.0, 800.0], [60.0; 3]));
+        assert!(apart([1500.0; 3], [60.0, 65.0, 80.0]));
+        assert!(!apart([1500.0; 3], [60.0, 80.0, 70.0]));
+    }
+
     /// What `question` says of a transmission error that is `factor` times the computed one and has something `else_besides` (12 as it usually is), in
     /// test B alone or in both.
     fn asked(

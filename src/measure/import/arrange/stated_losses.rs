@@ -27,11 +27,14 @@ pub(super) fn pass_over(
     ) else {
         return Ok(());
     };
-    let of = |unit: &Option<String>| -> Result<f64, ImportError> {
-        unit.as_deref()
-            .map_or(Ok(1.0), |unit| units::factor(unit, Quantity::MassLoss))
+    // without both units nothing can be held against anything
+    let (Some(unit), Some(of_loss)) = (&pair.before.unit, &loss.unit) else {
+        return Ok(());
     };
-    let [of_masses, of_loss] = [of(&pair.before.unit)?, of(&loss.unit)?];
+    let [of_masses, of_loss] = [
+        units::factor(unit, Quantity::MassLoss)?,
+        units::factor(of_loss, Quantity::MassLoss)?,
+    ];
     let is_number = |row, column| row > head && column == loss.at;
     let read = with_points(sheet, wanted.decimal, is_number, |_, _, _| false)?;
     let readings = pair.readings(sheet, head, wanted)?;
