@@ -60,6 +60,7 @@ fn acting(card: &Card, values: &[f64]) -> Acting {
             friction_coefficient: Some(0.06),
             contact_coefficient: Some(13_000.0),
             bulk_temperature_c: Some(60.0),
+            flank_temperature_c: Some(60.0),
         },
         torque: 100.0,
         speed: 2000.0,

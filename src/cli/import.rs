@@ -130,7 +130,8 @@ fn parts(table: &Path, sheet: &Sheet, wanted: &Wanted<'_>) -> Vec<(String, Sheet
             .map(|(columns, part)| (format!("{name}, {columns}"), part))
             .collect(),
         None => {
-            let table = import::weighings_across(sheet);
+            let table = import::weighings_across(sheet)
+                .or_else(|| import::checkpoints_across(sheet, wanted.quantity));
             vec![(name, table.unwrap_or_else(|| sheet.clone()))]
         }
     }

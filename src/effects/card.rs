@@ -4,6 +4,7 @@ use super::effect::{Effect, FaceAt, Hook};
 use super::error::EffectError;
 use super::formula::{Formula, FormulaError};
 use super::prior::Prior;
+use super::variables;
 
 /// One effect of the catalogue.
 #[derive(Debug)]
@@ -168,7 +169,23 @@ impl Param {
     }
 }
 
+/// Variables that say how far a test has gone, the same for all points of a flank.
+const TIMES: [&str; 4] = ["cycles", "contacts", "hours", "worn_volume"];
+
 impl Card {
+    /// Whether it changes k alone, and over the time alone: alike at every place and in every condition.
+    pub fn changes_k_over_time_alone(&self) -> bool {
+        let words = self
+            .formula
+            .split(|c: char| !c.is_alphanumeric() && c != '_');
+        let mut used = words
+            .filter(|word| variables::find(word).is_some())
+            .peekable();
+        self.hook == Hook::WearFactor
+            && used.peek().is_some()
+            && used.all(|variable| TIMES.contains(&variable))
+    }
+
     /// Whether it acts through slices of the face.
     pub fn acts_across_the_face(&self) -> bool {
         let end = FaceAt {

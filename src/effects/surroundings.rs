@@ -22,6 +22,8 @@ pub struct Surroundings {
     pub contact_coefficient: Option<f64>,
     /// Bulk temperature, °C.
     pub bulk_temperature_c: Option<f64>,
+    /// Temperature of the flanks, °C; above that of the bulk where friction losses warm the teeth.
+    pub flank_temperature_c: Option<f64>,
 }
 
 /// Bulk temperature where none is stated: the one at which lengths are measured, °C.

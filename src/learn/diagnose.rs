@@ -16,7 +16,7 @@
 //! its own form (`OWN_FORM` in `likelihood`).
 
 pub use crate::learn::decision::{
-    CandidateEvidence, Decision, DecisionRule, Evidence, PlaceLawEvidence, RemainderEvidence,
+    CandidateEvidence, Decision, DecisionRule, Evidence, LawInsteadEvidence, RemainderEvidence,
     Verdict, decide,
 };
 pub use crate::learn::discrepancy::{
@@ -51,7 +51,7 @@ use crate::learn::model_search::context::Context;
 use crate::learn::model_search::high_fidelity::decide_leaders;
 use crate::learn::model_search::stages::Stages;
 use crate::learn::model_search::{
-    learned_drivers, matching_pursuit, nested_forms, pairs, place_laws,
+    learned_drivers, matching_pursuit, nested_forms, pairs, place_laws, time_laws,
 };
 use crate::learn::noise::{ModelError, NoiseModel};
 use crate::learn::prediction::bench::Workshop;
@@ -198,20 +198,18 @@ fn search(context: &Context<'_>, base: &BaseFit, workshop: &Workshop) -> Diagnos
             effects: Vec::new(),
         }
     };
-    let place_laws = if smooth.is_real() && !context.approximate {
-        place_laws::instead_of_waves(context, base, &singles, &fitted)
+    let laws = if smooth.is_real() && !context.approximate {
+        let beside = &discrepancy.effects;
+        let of_time = time_laws::instead_of_slow_change(context, base, &fitted, beside);
+        [
+            place_laws::instead_of_waves(context, base, &singles, &fitted),
+            of_time.into_iter().collect(),
+        ]
     } else {
-        Vec::new()
+        Default::default()
     };
-    let posterior = JudgedCandidates::new(
-        likelihood,
-        base,
-        fitted,
-        discrepancy,
-        place_laws,
-        &smooth,
-        rule,
-    );
+    let posterior =
+        JudgedCandidates::new(likelihood, base, fitted, discrepancy, laws, &smooth, rule);
     let doing = "held-out tests and the next experiment".to_owned();
     stages.begin([EXPERIMENT, LAWS], doing, 1);
     let diagnosis = Diagnosis::new(Findings {
@@ -229,7 +227,7 @@ fn search(context: &Context<'_>, base: &BaseFit, workshop: &Workshop) -> Diagnos
     let learned = if posterior.decision.verdict == Verdict::Unknown && !context.approximate {
         let doing = "laws of one driver for what the catalogue does not explain".to_owned();
         stages.begin([LAWS, 1.0], doing, 1);
-        learned_drivers::learned_driver(context, &base.fitted)
+        learned_drivers::learned_driver(context, &base.fitted, diagnosis.driver.as_ref())
     } else {
         None
     };

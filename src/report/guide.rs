@@ -1,6 +1,6 @@
 //! The pages of the guide that are written from the code: the catalogue of effects and the keys of the study file.
 //!
-//! `cargo run --example write_guide` writes them; `tests/guide.rs` holds the committed ones against the code.
+//! `cargo run --example write_guide` writes them; `tests/program/guide.rs` holds the committed ones against the code.
 
 use std::fmt::Write;
 

@@ -81,6 +81,9 @@ pub fn summary(run: &Run) -> Result<Value, OutputError> {
     if c.wear_coefficient[1] != c.wear_coefficient[0] {
         document["conditions"]["coefficient_gear"] = json!(c.wear_coefficient[1]);
     }
+    if let Some([flank, root]) = c.warmed_teeth_c {
+        document["conditions"]["tooth_temperature_c"] = json!({"flank": flank, "root": root});
+    }
     check_numbers(run)?;
     Ok(document)
 }
@@ -132,9 +135,12 @@ pub fn text(file: &str, document: &impl Serialize) -> Result<Vec<u8>, OutputErro
 
 fn member_wear(run: &Run, member: Member) -> Value {
     let flank = run.last().profile(member);
+    let below_corner = flank.deepest_below_corner(run.geometry.module);
     json!({
         "max_depth_um": flank.max_depth(),
         "max_depth_radius": flank.deepest().map(|i| flank.radius[i]),
+        "max_depth_below_corner_um": below_corner.map(|i| flank.depth[i]),
+        "max_depth_below_corner_radius": below_corner.map(|i| flank.radius[i]),
         "worn_area_mm2": flank.worn_area_mm2,
         "mass_loss_mg": flank.mass_loss_mg,
     })

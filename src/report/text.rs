@@ -7,7 +7,7 @@ mod summary;
 
 pub(super) use self::friction::{
     in_contact as friction_in_contact, of_flash as friction_of_flash,
-    of_losses as friction_of_losses,
+    of_losses as friction_of_losses, warmed_teeth,
 };
 pub(super) use self::peak::{at_kinks, elsewhere};
 use self::plausibility::implausible;
@@ -132,8 +132,15 @@ fn wear(run: &Run) -> Vec<String> {
             Some(i) => format!(" ({})", region(run, flank.path[i])),
             None => String::new(),
         };
+        let below = flank.deepest_below_corner(run.geometry.module);
+        let below = below.map_or(String::new(), |i| {
+            format!(
+                ", below its tip corner, which wears the deeper the finer the mesh, by up to {} µm",
+                significant(flank.depth[i], 3)
+            )
+        });
         format!(
-            "the {} by up to {} µm{place}",
+            "the {} by up to {} µm{place}{below}",
             member.name(),
             significant(flank.max_depth(), 3)
         )

@@ -129,6 +129,8 @@ pub struct Conditions {
     pub density: [f64; 2],
     /// Which friction was used.
     pub friction: Friction,
+    /// Temperatures of flank and root where friction losses make them (VDI 2736 part 2), °C.
+    pub warmed_teeth_c: Option<[f64; 2]>,
 }
 
 /// Working geometry of the pair at the centre distance of the run.

@@ -100,6 +100,7 @@ impl Study {
             friction_coefficient: lubricant.friction_coefficient,
             contact_coefficient,
             bulk_temperature_c: conditions.bulk_temperature_c,
+            flank_temperature_c: conditions.flank_temperature_c,
         }
     }
 

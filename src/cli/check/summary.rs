@@ -139,11 +139,17 @@ fn operation(test: &Test, with_temperature: bool, is_bare: bool) -> String {
         0.0 => String::new(),
         mm => format!(", misalignment {} mm", plain(mm)),
     };
-    let temperature = test.conditions.bulk_temperature_c;
-    let warm = temperature.filter(|_| with_temperature);
-    let warm = warm.map_or(String::new(), |celsius| {
-        format!(", {} °C", plain(0.1 * (10.0 * celsius).round()))
-    });
+    let tenths = |celsius: f64| plain(0.1 * (10.0 * celsius).round());
+    let warm = match test.conditions.warmed_teeth_c() {
+        Some([flank, root]) => format!(
+            ", teeth at {} °C (flank) and {} °C (root) by VDI 2736",
+            tenths(flank),
+            tenths(root)
+        ),
+        None => (test.conditions.bulk_temperature_c)
+            .filter(|_| with_temperature)
+            .map_or(String::new(), |celsius| format!(", {} °C", tenths(celsius))),
+    };
     format!(
         "test {}: {} N·m, {} rpm{warm}{misaligned}, {} cycles{held}{}",
         test.id,

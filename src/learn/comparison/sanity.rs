@@ -31,6 +31,7 @@ mod moved_places;
 mod moved_rotation;
 mod negated;
 mod no_wear;
+mod one_series;
 mod other_units;
 mod reversed;
 mod same_moments;
@@ -117,6 +118,14 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
     }
     let mut said = signs::signs(study, &rows);
     let mut values_asked = false;
+    if said.is_empty() {
+        said.extend(one_series::one_series(study, &rows));
+        values_asked = !said.is_empty();
+    }
+    // the wear of a test with such a curve is another one, of which tests and torques would be blamed
+    if said.is_empty() {
+        said.extend(reversed::one_member_reversed(study, &rows));
+    }
     if said.is_empty() {
         let k = fit.coefficient;
         // exchanged masses are at odds with the depths of both members

@@ -25,17 +25,20 @@ pub struct Evidence {
     pub beside_unknown: Vec<RemainderEvidence>,
     /// Free factors on k by the place on the flank, fitted instead of a sum of waves that leads; none where none does.
     #[serde(default)]
-    pub place_laws: Vec<PlaceLawEvidence>,
+    pub place_laws: Vec<LawInsteadEvidence>,
+    /// Free factors on k by the time, fitted instead of an effect that leads and changes k over time alone; none where none does, or it leaves nothing.
+    #[serde(default)]
+    pub time_laws: Vec<LawInsteadEvidence>,
 }
 
-/// A factor on k as a free smooth function of the place on the flank, fitted instead of a sum of waves along the profile.
+/// A factor on k as a free smooth function of one variable, fitted instead of an effect.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PlaceLawEvidence {
+pub struct LawInsteadEvidence {
     /// The effects that it was fitted beside; empty: none.
     pub beside: EffectSet,
-    /// The sum of waves.
+    /// The effect, such as a sum of waves.
     pub instead_of: EffectSet,
-    /// `learned:s`, `learned:radius:pinion`.
+    /// `learned:s`, `learned:radius:pinion`, `learned:cycles`.
     pub law: String,
     /// ln Z(effects and law) over the base model's.
     pub evidence_gain: f64,

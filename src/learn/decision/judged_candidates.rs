@@ -1,6 +1,6 @@
 //! All fitted candidates with what the decision says of them.
 
-use super::evidence::{CandidateEvidence, Evidence, PlaceLawEvidence, RemainderEvidence};
+use super::evidence::{CandidateEvidence, Evidence, LawInsteadEvidence, RemainderEvidence};
 use super::rule::DecisionRule;
 use super::verdict::{Decision, decide};
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
@@ -9,7 +9,7 @@ use crate::learn::checks::identifiability::unidentified;
 use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
 use crate::learn::model_search::beside_unknown::{BesideUnknown, WithDiscrepancy};
-use crate::learn::model_search::place_laws::PlaceLaw;
+use crate::learn::model_search::law_instead::LawInstead;
 
 /// Everything fitted, and the decision on it.
 pub(in crate::learn) struct JudgedCandidates {
@@ -31,7 +31,7 @@ impl JudgedCandidates {
         base: &BaseFit,
         candidates: Vec<FittedCandidate>,
         discrepancy: WithDiscrepancy,
-        place_laws: Vec<PlaceLaw>,
+        [place_laws, time_laws]: [Vec<LawInstead>; 2],
         smooth: &SmoothDiscrepancy,
         rule: DecisionRule,
     ) -> Self {
@@ -44,6 +44,12 @@ impl JudgedCandidates {
             chi2_drop: base.square - fitted.square,
             scatter_gain: fitted.scatter_gain,
         };
+        let instead = |law: LawInstead| LawInsteadEvidence {
+            beside: law.beside,
+            instead_of: law.instead_of,
+            law: law.name,
+            evidence_gain: law.log_evidence - base.log_evidence,
+        };
         let evidence = Evidence {
             candidates: candidates.iter().map(figures).collect(),
             attainable_drop: smooth.drop,
@@ -53,14 +59,8 @@ impl JudgedCandidates {
             beside_unknown: (discrepancy.effects.iter())
                 .map(|beside| remainder(likelihood, beside))
                 .collect(),
-            place_laws: (place_laws.into_iter())
-                .map(|law| PlaceLawEvidence {
-                    beside: law.beside,
-                    instead_of: law.instead_of,
-                    law: law.name,
-                    evidence_gain: law.log_evidence - base.log_evidence,
-                })
-                .collect(),
+            place_laws: place_laws.into_iter().map(instead).collect(),
+            time_laws: time_laws.into_iter().map(instead).collect(),
         };
         Self {
             decision: decide(&evidence, &rule),

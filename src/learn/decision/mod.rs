@@ -6,7 +6,7 @@ mod posterior;
 mod rule;
 mod verdict;
 
-pub use evidence::{CandidateEvidence, Evidence, PlaceLawEvidence, RemainderEvidence};
+pub use evidence::{CandidateEvidence, Evidence, LawInsteadEvidence, RemainderEvidence};
 pub use rule::DecisionRule;
 pub(in crate::learn) use rule::SURE;
 pub use verdict::{Decision, Verdict, decide};

@@ -43,6 +43,8 @@
 //! ```text
 //! from c to R and unknown, to unknown:   ln odds = (Δ ln Z_law − Δ ln Z_c)/T + (effects of R + 1 − effects of c) ln(o_R/n)
 //! ```
+//! An effect that changes k over time alone follows any slow change of k in part. Where it leads and leaves something, a law of the time fitted instead
+//! of it takes its part likewise, ε Δ ln Z_c less for another form of the effect.
 //!
 //! Δ ln Z_R is the smaller of two figures: with the discrepancy that is most probable without the effect, and with every kind and size of it. By the
 //! first the discrepancy has taken what it can of the effect already, by the second anything that mends the discrepancy is an effect. The share w of
@@ -50,7 +52,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::evidence::{CandidateEvidence, Evidence, PlaceLawEvidence, RemainderEvidence};
+use super::evidence::{CandidateEvidence, Evidence, LawInsteadEvidence, RemainderEvidence};
 use super::rule::DecisionRule;
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
 use crate::numeric::logarithm::{log_sum_exp, softplus};
@@ -159,16 +161,16 @@ pub(super) fn log_probabilities(
         .collect()
 }
 
-/// The hypotheses that laws of the place make of a form that holds a sum of waves, with the ln odds of each to that form.
+/// The hypotheses that laws make of a form that holds the effect which they replace, with the ln odds of each to that form.
 fn laws_instead_of(
     c: &CandidateEvidence,
     evidence: &Evidence,
     rule: &DecisionRule,
     singles: f64,
 ) -> Vec<(Hypothesis, f64)> {
-    let replaces = |law: &&PlaceLawEvidence| c.effects.contains(&law.instead_of);
-    let odds = |law: &PlaceLawEvidence| {
-        let gain = (law.evidence_gain - c.evidence_gain) / rule.temper;
+    let replaces = |law: &&LawInsteadEvidence| c.effects.contains(&law.instead_of);
+    let odds = |(law, tolerated): (&LawInsteadEvidence, f64)| {
+        let gain = (law.evidence_gain - c.evidence_gain - tolerated) / rule.temper;
         let [own, beside] = [&c.effects, &law.beside].map(|set| set.len() as f64);
         let fewer = (beside + 1.0 - own) * (rule.remainder_odds / singles).ln();
         let hypothesis = if law.beside.is_empty() {
@@ -178,7 +180,12 @@ fn laws_instead_of(
         };
         (hypothesis, gain + fewer)
     };
-    (evidence.place_laws.iter().filter(replaces))
+    let of_places = evidence.place_laws.iter().filter(replaces);
+    let of_times = evidence.time_laws.iter().filter(replaces);
+    // a slightly other form of an effect is still the effect; waves have none
+    let tolerated = rule.discrepancy_tolerance * c.evidence_gain.max(0.0);
+    (of_places.map(|law| (law, 0.0)))
+        .chain(of_times.map(|law| (law, tolerated)))
         .map(odds)
         .collect()
 }

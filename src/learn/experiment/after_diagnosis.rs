@@ -165,8 +165,8 @@ pub(super) fn proposed(decided: Option<&Decided>, best: &RankedTest, plain: &Ope
     );
     if next.test != best.test {
         return format!(
-            " The diagnosis proposed {} ({}), where {} differ most with everything measured at once ({expects}); here one quantity is \
-             measured, all leaders count by their probability, and of tests that say as much the one of fewer hours comes first.",
+            " The diagnosis proposed {} ({}), where {} differ most in the quantities measured so far, taken together ({expects}); here one \
+             quantity is measured, also one that was not so far, all leaders count by their probability, and of tests that say as much the one of fewer hours comes first.",
             next.repeats.as_ref().map_or_else(
                 || format!("a test with {}", changes(&next.test, plain)),
                 |id| format!("to make test {id} once more")
@@ -182,7 +182,7 @@ pub(super) fn proposed(decided: Option<&Decided>, best: &RankedTest, plain: &Ope
     if grade(here) == grade(next.expected_chi2) {
         return String::new();
     }
-    format!(" With everything measured in it at once the diagnosis expects {expects}.")
+    format!(" In the quantities measured so far, taken together, the diagnosis expects {expects}.")
 }
 
 #[cfg(test)]
@@ -341,11 +341,11 @@ mod tests {
         assert_eq!(next(100.0, 3.0), "");
         assert_eq!(
             next(100.0, 9.0),
-            " With everything measured in it at once the diagnosis expects χ² 9.0, enough to favour one clearly."
+            " In the quantities measured so far, taken together, the diagnosis expects χ² 9.0, enough to favour one clearly."
         );
         assert!(
             next(50.0, 3.0)
-                .contains("at once (χ² 3.0, still little: other measurements are needed)")
+                .contains("taken together (χ² 3.0, still little: other measurements are needed)")
         );
     }
 }

@@ -14,7 +14,7 @@ use crate::learn::checks::goodness_of_fit::GoodnessOfFit;
 use crate::learn::checks::sufficiency::few;
 use crate::learn::decision::judged_candidates::JudgedCandidates;
 use crate::learn::decision::{
-    Decision, DecisionRule, PlaceLawEvidence, RemainderEvidence, SURE, Verdict,
+    Decision, DecisionRule, LawInsteadEvidence, RemainderEvidence, SURE, Verdict,
 };
 use crate::learn::discrepancy::dependence::{self, Driver};
 use crate::learn::discrepancy::residual_drivers::{self, ResidualDrivers};
@@ -97,7 +97,10 @@ pub struct Diagnosis {
     pub beside_unknown: Vec<RemainderEvidence>,
     /// Factors on k by the place on the flank, fitted instead of a sum of waves along the profile that leads.
     #[serde(default)]
-    pub place_laws: Vec<PlaceLawEvidence>,
+    pub place_laws: Vec<LawInsteadEvidence>,
+    /// Factors on k by the time, fitted instead of an effect that leads and changes k over time alone.
+    #[serde(default)]
+    pub time_laws: Vec<LawInsteadEvidence>,
     /// The thresholds by which this was decided.
     pub rule: DecisionRule,
     /// Whether effects are named, if only as a group, of which the first leaves no more than noise, or than the analytic model's own error where that decides in
@@ -183,8 +186,9 @@ impl Diagnosis {
         let likelihood = &context.likelihood;
         let decision = &posterior.decision;
         let nothing_missing = decision.verdict == Verdict::NothingMissing;
-        let discrepant = smooth.is_real() || !nothing_missing;
-        let drivers = if discrepant && !few(likelihood, base) {
+        // of what acts on whole tests alone nothing is left between rows that could follow anything
+        let follows = smooth.is_real() || !nothing_missing && smooth.drop > smooth.spread();
+        let drivers = if follows && !few(likelihood, base) {
             dependence::drivers(likelihood, &base.fitted.found.model, smooth.drop)
         } else {
             Vec::new()
@@ -242,6 +246,7 @@ impl Diagnosis {
             screened: screened(context, posterior),
             beside_unknown: posterior.evidence.beside_unknown.clone(),
             place_laws: posterior.evidence.place_laws.clone(),
+            time_laws: posterior.evidence.time_laws.clone(),
             rule: posterior.rule,
             warnings: warnings(context, base, posterior, &findings.not_fitted),
             sparse_regression: names(findings.sparse_regression),

@@ -2,9 +2,9 @@
 
 mod diagnosis;
 pub(in crate::learn) mod findings;
+mod laws_instead;
 mod learned;
 mod outlook;
-mod place_laws;
 mod ranked;
 mod remainder;
 mod rivals;

@@ -4,7 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::findings::Findings;
 use super::ranked::form;
-use super::wording::{Explanation, added, before, change, chi2, of_attainable, percent, values};
+use super::wording::{
+    Explanation, add_each, added, before, chance, change, chi2, of_attainable, percent, values,
+};
 use crate::learn::candidates::fitted_candidate::FittedCandidate;
 use crate::learn::decision::Verdict;
 use crate::learn::discrepancy::dependence::{self, Driver};
@@ -68,15 +70,15 @@ fn second_cause(findings: &Findings<'_>, established: &EffectSet) -> Option<Stri
         format!(
             "The second cause is not established: {} has probability {}, {established} beside something unknown {}.",
             set.in_words(),
-            percent(probability),
-            percent(decision.probability(&unknown))
+            chance(probability),
+            chance(decision.probability(&unknown))
         )
     })
 }
 
 /// What is missing beside something else; established only where the fit that this rests on `converged`.
 fn missing(effects: &EffectSet, probability: f64, converged: bool) -> String {
-    let (effects, probability) = (effects.in_words(), percent(probability));
+    let (effects, probability) = (effects.in_words(), chance(probability));
     if converged {
         format!(
             "Established: {effects} is missing (probability {probability}), but it is not all that is."
@@ -137,7 +139,7 @@ pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
             let list: Vec<String> = (group.iter())
                 .map(|effects| {
                     let probability = posterior.decision.probability_in_all(effects);
-                    format!("{effects} ({})", percent(probability))
+                    format!("{effects} ({})", chance(probability))
                 })
                 .collect();
             format!(
@@ -174,9 +176,15 @@ pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
     let next_step = match &group[..] {
         [effects] => format!(
             "{}, then diagnose the new study: what remains is judged with the effect in; `gearwear climb STUDY` goes on so step by step",
-            beside_fit(effects).map_or_else(|| format!("gearwear add STUDY {effects}"), |fit| added(&fit.candidate))
+            beside_fit(effects).map_or_else(
+                || format!("gearwear add STUDY {effects}"),
+                |fit| added(&fit.candidate)
+            )
         ),
-        _ => "make the proposed test, or add each in turn and see which lowers the held-out error, as gearwear climb STUDY does; then diagnose the new study".to_owned(),
+        _ => format!(
+            "make the proposed test, or {}, as gearwear climb STUDY does; then diagnose the new study",
+            add_each(findings)
+        ),
     };
     Explanation {
         sentence,

@@ -2,7 +2,7 @@
 
 use super::findings::Findings;
 use super::outlook::Outlook;
-use super::wording::{Explanation, before, of_attainable, percent};
+use super::wording::{Explanation, add_each, before, chance, of_attainable};
 use crate::effects::Card;
 use crate::learn::checks::identifiability::unidentified;
 use crate::learn::decision::Decision;
@@ -22,7 +22,7 @@ pub(super) fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) 
     let rivals = rivals(decision);
     let common = common_to(&rivals, decision);
     let list: Vec<String> = (rivals.iter())
-        .map(|(hypothesis, p)| format!("{} ({})", rival(hypothesis), percent(*p)))
+        .map(|(hypothesis, p)| format!("{} ({})", rival(hypothesis), chance(*p)))
         .collect();
     let doubted = decision.group.contains(&Hypothesis::Unknown);
     let leader = decision.leading_effects().filter(|_| doubted);
@@ -53,7 +53,7 @@ pub(super) fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) 
         format!(
             "{} stands in all of them: that it is missing has probability {}.",
             effects.in_words(),
-            percent(*probability)
+            chance(*probability)
         )
     });
     let single = common.as_ref().and_then(|(effects, _)| effects.single());
@@ -72,7 +72,12 @@ pub(super) fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) 
         (None, Some((card, _))) => {
             format!("to show whether it is {}: {}", card.name, card.separated_by)
         }
-        (None, None) => one_law(findings, &rivals).unwrap_or_else(|| "no test made like these tells them apart clearly: gearwear plan STUDY ranks others; or add each in turn and see which lowers the held-out error".to_owned()),
+        (None, None) => one_law(findings, &rivals).unwrap_or_else(|| {
+            format!(
+                "no test made like these tells them apart clearly: gearwear plan STUDY ranks others; or {}",
+                add_each(findings)
+            )
+        }),
     };
     Explanation {
         sentence: format!(

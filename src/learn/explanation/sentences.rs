@@ -1,14 +1,15 @@
 //! Sentences that a gear engineer can check.
 
 use super::findings::Findings;
+use super::laws_instead;
 use super::outlook::Outlook;
-use super::place_laws;
 use super::remainder::partial;
 use super::rivals::ambiguous;
 use super::scatter::{made_twice, of_scatter};
 use super::warnings::other_forms;
 use super::wording::{
-    Explanation, added, before, change, chi2, in_other_forms, of_attainable, percent, values,
+    Explanation, added, before, chance, change, chi2, in_other_forms, of_attainable, percent,
+    values,
 };
 use crate::effects::{Card, Form};
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
@@ -26,6 +27,9 @@ use crate::numeric::written::significant;
 
 /// Scatter of k between tests from which it is worth a sentence.
 const LARGE_SCATTER: f64 = 0.2;
+/// Scatter that is worth a word where an effect takes it away, and what is then left of it at most.
+const SOME_SCATTER: f64 = 0.01;
+const LESS: f64 = 0.7;
 /// Probability of nothing missing from which the next effect is not worth a sentence.
 const CERTAIN: f64 = 0.95;
 /// Share of the attainable fall of χ² below which no effect is worth naming.
@@ -70,7 +74,7 @@ impl Explanation {
             (Verdict::Unknown, _) => unknown(findings),
             _ => nothing_missing(findings, next),
         };
-        all.reasons.extend(place_laws::instead_of_waves(findings));
+        all.reasons.extend(laws_instead::instead(findings));
         if let Some(driver) = driver {
             let is_explained = matches!(decision.verdict, Verdict::Effect | Verdict::Effects);
             all.reasons.extend(depends_on(driver, is_explained));
@@ -126,7 +130,7 @@ fn nothing_missing(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Ex
     } else {
         format!(
             "{shown}: the base model stands at χ² {chi2_before:.2} per point (1 is the noise), probability of nothing missing {}.",
-            percent(nothing)
+            chance(nothing)
         )
     };
     let base = findings.base.fitted.log_evidence;
@@ -137,7 +141,7 @@ fn nothing_missing(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Ex
         format!(
             "Of single effects {} comes nearest ({}): it lowers χ² per point to {:.3}, too little, given how many candidates were tried.",
             leader.candidate.effects,
-            percent(decision.probability_of(&leader.candidate.effects)),
+            chance(decision.probability_of(&leader.candidate.effects)),
             chi2(findings, leader)
         )
     });
@@ -249,16 +253,18 @@ fn unknown(findings: &Findings<'_>) -> Explanation {
         format!(
             "{} is not ruled out ({}).",
             hypothesis.in_words(),
-            percent(probability)
+            chance(probability)
         )
     });
     Explanation {
         sentence: format!(
             "Something is missing that the catalogue does not hold (probability {}): the base model stands at χ² {:.2} per point.",
-            percent(decision.probability(&Hypothesis::Unknown)),
+            chance(decision.probability(&Hypothesis::Unknown)),
             before(findings)
         ),
         reasons: best_of_catalogue(findings)
+            // what a free law replaces is told with that law, and would be the best
+            .filter(|_| laws_instead::instead(findings).is_empty())
             .into_iter()
             .chain(possible)
             .collect(),
@@ -352,18 +358,28 @@ fn named(findings: &Findings<'_>, leader: &FittedCandidate) -> Explanation {
     }
     Explanation {
         sentence: format!(
-            "{} missing: {} (probability {}). With {}{} χ² per point {}; {}.",
+            "{} missing: {} (probability {}). With {}{} χ² per point {}{}; {}.",
             missing(several, leader.converged),
             candidate.effects.in_words(),
-            percent((findings.posterior.decision).probability_of(&candidate.effects)),
+            chance((findings.posterior.decision).probability_of(&candidate.effects)),
             if several { "them" } else { "it" },
             in_other_forms(candidate),
             change(before(findings), chi2(findings, leader)),
+            of_less_scatter(findings.base.fitted.found.scatter, leader.found.scatter),
             values(leader)
         ),
         reasons: (candidate.added_forms().map(shows)).chain(weaker).collect(),
         next_step,
     }
+}
+
+/// That k scatters less between tests with an effect, where it does: of what acts on whole tests their rows say little.
+fn of_less_scatter(without: f64, with: f64) -> String {
+    if without < SOME_SCATTER || with > LESS * without {
+        return String::new();
+    }
+    let [without, with] = [without, with].map(percent);
+    format!(", the scatter of k between tests falls from {without} to {with}")
 }
 
 /// What may be missing beside the leader: an effect too weak beside it to be told from another form of the leader itself.
@@ -417,15 +433,26 @@ fn why_not_the_runner_up(findings: &Findings<'_>) -> Vec<String> {
         false => "as far as it was fitted",
     };
     let base = findings.base.fitted.square;
-    let whole = match chi2(findings, other) > chi2(findings, leader) {
-        true => String::new(),
+    let [scatter, of_other_k] = [leader, other].map(|fitted| fitted.found.scatter);
+    let whole = if chi2(findings, other) > chi2(findings, leader) {
+        String::new()
+    } else if leader.square < other.square {
         // per point, rows do not count with what they have in common
-        false => format!(
+        format!(
             " (of all rows together, with their covariance, it takes {} off χ², {} takes {})",
             significant(base - other.square, 4),
             leader.candidate.effects,
             significant(base - leader.square, 4)
-        ),
+        )
+    } else if LESS * of_other_k > scatter {
+        format!(
+            " and a scatter of k between tests of {}, {} one of {}",
+            percent(of_other_k),
+            leader.candidate.effects,
+            percent(scatter)
+        )
+    } else {
+        String::new()
     };
     let mut reasons = vec![format!(
         "Why not {}: {fitted} it leaves χ² {:.2} per point{whole}, {}.",

@@ -5,6 +5,7 @@ use super::ranked::parameters;
 use crate::learn::candidates::fitted_candidate::FittedCandidate;
 use crate::learn::hypothesis::candidate::Candidate;
 use crate::numeric::written::{self, fixed, rounded_down, significant, uncertain};
+use crate::study::Role;
 
 /// The verdict in words.
 pub(super) struct Explanation {
@@ -50,15 +51,33 @@ pub(super) fn in_other_forms(candidate: &Candidate) -> String {
     }
 }
 
-/// `98 %`, never a certainty.
+/// `98 %` of a whole, never all of it.
 pub(super) fn percent(p: f64) -> String {
+    with_decimals(p, usize::from(!(0.1..=0.9).contains(&p)))
+}
+
+/// A probability, with the decimals of the table of hypotheses, never a certainty.
+pub(super) fn chance(p: f64) -> String {
+    with_decimals(p, 1)
+}
+
+fn with_decimals(p: f64, decimals: usize) -> String {
     if p > 0.999 {
         "over 99.9 %".to_owned()
     } else if p > 0.0 && p < 0.001 {
         "under 0.1 %".to_owned()
     } else {
-        let digits = usize::from(!(0.1..=0.9).contains(&p));
-        format!("{} %", rounded_down(100.0 * p, digits))
+        format!("{} %", rounded_down(100.0 * p, decimals))
+    }
+}
+
+/// What to do where candidates cannot be told apart.
+pub(super) fn add_each(findings: &Findings<'_>) -> &'static str {
+    let roles = &findings.context.likelihood.measured.roles;
+    if roles.contains(&Role::Holdout) {
+        "add each in turn and see which lowers the held-out error"
+    } else {
+        "hold a test out (role = \"holdout\"), add each in turn and see which lowers its error"
     }
 }
 

@@ -1,8 +1,8 @@
 //! What nothing of the catalogue explains, as a law of one driver: every driver a candidate, the one with the greatest evidence the answer.
 //!
 //! Each is first fitted with one size and length of its process, the best few with all; by the analytic model, which tells drivers apart at
-//! a hundredth of the price of finite elements. Those few are then fitted by the model that decides: what a law promises must not be what
-//! mends the analytic model's own error.
+//! a hundredth of the price of finite elements. Those few, and the law of what the discrepancy from the deciding model follows, are then fitted by
+//! that model: what a law promises must not be what mends the analytic model's own error, which may also hide the law that is asked for.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::context::Context;
 use crate::effects::Hook;
 use crate::learn::candidates::fitted_candidate::FittedCandidate;
+use crate::learn::discrepancy::dependence::Driver;
 use crate::learn::fitting::fitted::Fit;
 use crate::learn::fitting::measured::Measured;
 use crate::learn::inference::search::Effort;
@@ -38,11 +39,15 @@ const DRIVERS: &[&str] = &[
     "bulk_temperature",
 ];
 /// Those of them that are places on the flank.
-const PLACES: &[&str] = &["s", "radius:pinion", "radius:gear"];
+pub(in crate::learn) const PLACES: &[&str] = &["s", "radius:pinion", "radius:gear"];
+/// Those of them that are times.
+pub(in crate::learn) const TIMES: &[&str] = &["cycles", "cycles:pinion", "cycles:gear"];
 /// How many of them are fitted with every size and length.
 const CLOSELY: usize = 3;
-/// The same of places alone.
-const PLACES_CLOSELY: usize = 2;
+/// The same of places or times alone.
+const OF_ONE_KIND_CLOSELY: usize = 2;
+/// Share of the discrepancy from which the law of what it follows is fitted by the deciding model, however the analytic one ranks it.
+const FOLLOWED: f64 = 0.5;
 /// Gain of ln evidence below which no law is told of: the prior odds against one of so many drivers, and a thousand beside.
 const LEAST_GAIN: f64 = 10.0;
 
@@ -143,33 +148,57 @@ impl FittedLaws {
     }
 }
 
-/// The law beside what is `known` that the measurements ask for most; None where none is worth its freedom.
+/// The law beside what is `known` that the measurements ask for most, `follows` being what their discrepancy follows first; None where none is worth
+/// its freedom.
 pub(in crate::learn) fn learned_driver(
     context: &Context<'_>,
     known: &FittedCandidate,
+    follows: Option<&Driver>,
 ) -> Option<LearnedAnswer> {
-    let screened = screened(context, known, DRIVERS, CLOSELY)?;
+    let mut screened = screened(context, known, DRIVERS, CLOSELY)?;
     // a study whose own model is the analytic one is decided by it
     if context.fidelity == Fidelity::Screening {
         return answer(context, &screened, screened.others(1).collect());
     }
-    let decided = decided(context, known, &screened, CLOSELY)?;
-    let others = decided.others(1).chain(screened.others(CLOSELY)).collect();
+    let closely = brought_forward(&mut screened.laws, |(law, _)| {
+        follows.is_some_and(|driver| is_of(law.driver.name, driver))
+    });
+    let decided = decided(context, known, &screened, closely)?;
+    let others = decided.others(1).chain(screened.others(closely)).collect();
     answer(context, &decided, others)
 }
 
-/// The law of a place on the flank beside what is `known` that has the greatest evidence, and its gain over the same without it; None where it is not
-/// worth its freedom.
-pub(in crate::learn) fn place_law(
+/// Whether a law's variable is what a discrepancy mostly follows.
+fn is_of(variable: &str, driver: &Driver) -> bool {
+    let is_place =
+        driver.name == "position" && PLACES.iter().any(|place| place.starts_with(variable));
+    driver.variance_share >= FOLLOWED && (is_place || driver.name == variable)
+}
+
+/// How many laws are fitted closely: if none of the first few `is_meant`, the first that is comes right behind them.
+fn brought_forward<T>(laws: &mut [T], is_meant: impl Fn(&T) -> bool) -> usize {
+    match laws.iter().position(is_meant) {
+        Some(at) if at >= CLOSELY => {
+            laws[CLOSELY..=at].rotate_right(1);
+            CLOSELY + 1
+        }
+        _ => CLOSELY,
+    }
+}
+
+/// The law of one of these `drivers` beside what is `known` that has the greatest evidence, and its gain over the same without it; None where it is
+/// not worth its freedom.
+pub(in crate::learn) fn best_of(
     context: &Context<'_>,
     known: &FittedCandidate,
+    drivers: &[&str],
 ) -> Option<(String, f64)> {
-    let screened = screened(context, known, PLACES, PLACES_CLOSELY)?;
+    let screened = screened(context, known, drivers, OF_ONE_KIND_CLOSELY)?;
     let own = context.fidelity == Fidelity::Screening;
     let ranked = if own {
         screened
     } else {
-        decided(context, known, &screened, PLACES_CLOSELY)?
+        decided(context, known, &screened, OF_ONE_KIND_CLOSELY)?
     };
     let answer = answer(context, &ranked, Vec::new())?;
     Some((answer.name, answer.evidence_gain))
@@ -347,6 +376,34 @@ mod tests {
     fn a_test_that_a_law_leaves_worse_is_told() {
         assert!(is_worse([0.93, 2.44]));
         assert!(!is_worse([0.93, 1.2]) && !is_worse([5.0, 5.5]) && !is_worse([5.0, 1.0]));
+    }
+
+    /// A step of k after some cycles: by the analytic model three other drivers came before cycles, which held 88 % of the discrepancy from finite
+    /// elements.
+    #[test]
+    fn what_the_discrepancy_follows_is_fitted_closely() {
+        let driver = |name: &str, variance_share: f64| Driver {
+            name: name.to_owned(),
+            variance_share,
+        };
+        let cycles = driver("cycles", 0.88);
+        let mut laws = ["p", "s", "radius", "film_ratio", "cycles", "depth"];
+        let closely = brought_forward(&mut laws, |law| is_of(law, &cycles));
+        assert_eq!(laws, ["p", "s", "radius", "cycles", "film_ratio", "depth"]);
+        assert_eq!(closely, CLOSELY + 1);
+        // there already, not the most of it, no law of it
+        for other in [
+            driver("position", 0.9),
+            driver("depth", 0.3),
+            driver("member", 0.9),
+        ] {
+            let before = laws;
+            assert_eq!(
+                brought_forward(&mut laws, |law| is_of(law, &other)),
+                CLOSELY
+            );
+            assert_eq!(laws, before);
+        }
     }
 
     /// A law that raises χ² is never offered, whatever its evidence; nor one that gains little.

@@ -5,22 +5,11 @@
 //! factor on k by the place is fitted instead, beside none and beside the other effect, or the next best one where the waves lead alone.
 
 use super::context::Context;
-use super::learned_drivers;
+use super::law_instead::LawInstead;
+use super::learned_drivers::{self, PLACES};
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::EffectSet;
 use crate::learn::hypothesis::candidate::Candidate;
-
-/// A law of the place on the flank, fitted.
-pub(in crate::learn) struct PlaceLaw {
-    /// The effects beside it; empty: none.
-    pub(in crate::learn) beside: EffectSet,
-    /// The sum of waves that it replaces.
-    pub(in crate::learn) instead_of: EffectSet,
-    /// `learned:s`, `learned:radius:pinion`.
-    pub(in crate::learn) name: String,
-    /// Log evidence with the effects and it.
-    pub(in crate::learn) log_evidence: f64,
-}
 
 /// ln evidence by which the first law may be behind for a second to be fitted beside other effects.
 const FAR_BEHIND: f64 = 30.0;
@@ -31,7 +20,7 @@ pub(in crate::learn) fn instead_of_waves(
     base: &BaseFit,
     singles: &[Candidate],
     fitted: &[FittedCandidate],
-) -> Vec<PlaceLaw> {
+) -> Vec<LawInstead> {
     // a fit that came to no end says nothing of how much of it is a profile
     let Some(leading) = fitted.first().filter(|first| first.converged) else {
         return Vec::new();
@@ -51,8 +40,8 @@ pub(in crate::learn) fn instead_of_waves(
     };
     let beside = fitted.iter().find(is_meant);
     let law = |known: &FittedCandidate| {
-        let (name, gain) = learned_drivers::place_law(context, known)?;
-        Some(PlaceLaw {
+        let (name, gain) = learned_drivers::best_of(context, known, PLACES)?;
+        Some(LawInstead {
             beside: known.candidate.effects.clone(),
             instead_of: waves.clone(),
             name,
@@ -64,9 +53,9 @@ pub(in crate::learn) fn instead_of_waves(
         true => [Some(&base.fitted), beside],
         false => [beside, Some(&base.fitted)],
     };
-    let mut laws: Vec<PlaceLaw> = Vec::new();
+    let mut laws: Vec<LawInstead> = Vec::new();
     for known in order.into_iter().flatten() {
-        let is_far = |law: &PlaceLaw| law.log_evidence < leading.log_evidence - FAR_BEHIND;
+        let is_far = |law: &LawInstead| law.log_evidence < leading.log_evidence - FAR_BEHIND;
         if laws.iter().any(is_far) {
             break;
         }

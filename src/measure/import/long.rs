@@ -154,7 +154,12 @@ fn of_columns(
         (None, what) => Some(single_quantity(&read, what, wanted)?),
     };
     counts::refuse_multiples_above(sheet, head)?;
-    let titles = Titles::of(sheet, head, single.unwrap_or(Quantity::WearDepth))?;
+    let titles = Titles::of(
+        sheet,
+        head,
+        single.unwrap_or(Quantity::WearDepth),
+        &wanted.per_interval,
+    )?;
     // what a deviation lost is positive whatever is said of the deviation's own sign, which has to be that of more material
     let stated = wanted.turn_sign || differences;
     let turned = titles.turns_sign(stated)? && !differences;
@@ -227,6 +232,7 @@ fn of_columns(
     if read.sigma.is_none() {
         state_sigma(&mut entries, wanted)?;
     }
+    arranged.extend(wanted.per_interval.doubt(&entries));
     arranged.extend(wanted.per_interval.add_up(&mut entries, false)?);
     let unit = single.map(|quantity| {
         wanted.unit_of_values(quantity, read.value.unit.as_deref(), titles.unit.as_deref())

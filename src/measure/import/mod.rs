@@ -10,6 +10,7 @@ mod append;
 mod arrange;
 mod cell_sigmas;
 mod cells;
+mod checkpoints_across;
 mod columns;
 mod conditions_above;
 mod counts;
@@ -52,6 +53,7 @@ mod xlsx;
 
 pub use append::appended;
 pub use cells::{Sheet, sheets};
+pub use checkpoints_across::checkpoints_across;
 pub use entry::{Entry, lines};
 pub use labelled_blocks::labelled_blocks;
 pub use long::{Long, long};

@@ -2,11 +2,11 @@
 //!
 //! A header beside a column of such values is not known and so refused; a title above a table would be passed over.
 
-use super::{ImportError, units};
+use super::{ImportError, PerInterval, units};
 use crate::measure::{Quantity, names};
 
 /// Words and what they make of the values.
-const OTHERS: [(&str, &[&str]); 3] = [
+const OTHERS: [(&str, &[&str]); 2] = [
     (
         "rates",
         &[
@@ -18,16 +18,6 @@ const OTHERS: [(&str, &[&str]); 3] = [
             "taux",
             "tasso",
             "tasa",
-        ],
-    ),
-    (
-        "increments",
-        &[
-            "increment",
-            "increments",
-            "incremental",
-            "inkrement",
-            "zuwachs",
         ],
     ),
     (
@@ -44,6 +34,19 @@ const OTHERS: [(&str, &[&str]); 3] = [
             "prozent",
         ],
     ),
+];
+/// Words for what was lost since the last measurement.
+const INCREMENTS: [&str; 5] = [
+    "increment",
+    "increments",
+    "incremental",
+    "inkrement",
+    "zuwachs",
+];
+/// Words for losses, beside those that name a quantity.
+const LOSSES: [&str; 12] = [
+    "depth", "tiefe", "wear", "loss", "losses", "verlust", "verluste", "perte", "pertes",
+    "perdita", "perdite", "perdidas",
 ];
 /// Losses of thickness, which both flanks make.
 const THICKNESSES: [&str; 5] = [
@@ -87,14 +90,6 @@ const TIMES: [&str; 14] = [
     "rev",
     "lastwechsel",
 ];
-const INTERVALS: [&str; 6] = [
-    "interval",
-    "intervall",
-    "intervalle",
-    "intervallo",
-    "intervalo",
-    "stop",
-];
 const TEETH: [&str; 5] = ["tooth", "zahn", "dent", "dente", "diente"];
 const LAST: [&str; 6] = [
     "last", "previous", "letzter", "letzten", "letztem", "derniere",
@@ -115,12 +110,18 @@ const FOREIGN: [&str; 11] = [
     "lb",
 ];
 
-/// Refuses a title row that speaks of the values of a quantity, or of nothing but a unit, and says that they are others.
-pub(super) fn refuse(text: &str, row: usize, quantity: Quantity) -> Result<(), ImportError> {
+/// Refuses a title row that speaks of the values of a quantity, or of nothing but a unit, and says that they are others; of intervals, unless the user
+/// says so too.
+pub(super) fn refuse(
+    text: &str,
+    row: usize,
+    quantity: Quantity,
+    per_interval: &PerInterval,
+) -> Result<(), ImportError> {
     let words = names::words(text);
     let speaks = words.iter().any(|word| {
         names::quantity(word).is_some_and(|(named, _)| named == quantity)
-            || ["depth", "tiefe", "wear", "loss"].contains(&word.as_str())
+            || LOSSES.contains(&word.as_str())
             || word.starts_with("verschleiss")
             || word.starts_with("abtrag")
             || THICKNESSES.contains(&word.as_str())
@@ -128,8 +129,16 @@ pub(super) fn refuse(text: &str, row: usize, quantity: Quantity) -> Result<(), I
     if !speaks {
         return Ok(());
     }
+    if per_interval.losses.contains(&quantity) && are_increments(&words) {
+        return Ok(());
+    }
     let Some(what) = others(text, &words, quantity) else {
         return Ok(());
+    };
+    let added_up = if are_increments(&words) && PerInterval::LOSSES.contains(&quantity) {
+        format!("say --per-interval {}, ", quantity.name())
+    } else {
+        String::new()
     };
     let wanted = match quantity {
         Quantity::MassLoss => "losses of a whole member",
@@ -137,33 +146,41 @@ pub(super) fn refuse(text: &str, row: usize, quantity: Quantity) -> Result<(), I
         _ => "totals",
     };
     Err(ImportError(format!(
-        "row {}: `{text}`: {what}, and the table would be read as {wanted} since the start of the test: write these, in {}, or take the words out of the \
-         title if that is what they are",
+        "row {}: `{text}`: {what}, and the table would be read as {wanted} since the start of the test: {added_up}write these, in {}, or take the words \
+         out of the title if that is what they are",
         row + 1,
         quantity.unit()
     )))
 }
 
+/// Whether a word that is meant follows one for `per`: `per hour`.
+fn per(words: &[String], is_meant: impl Fn(&str) -> bool) -> bool {
+    let mut pairs = words.windows(2);
+    pairs.any(|two| PER.contains(&two[0].as_str()) && is_meant(&two[1]))
+}
+
+/// Whether a title speaks of what was lost since the last measurement.
+fn are_increments(words: &[String]) -> bool {
+    let has = |known: &[&str]| words.iter().any(|word| known.contains(&word.as_str()));
+    has(&INCREMENTS) || per(words, names::is_stop) || has(&SINCE) && has(&LAST)
+}
+
 /// What the values are by a title, if it is something else.
 fn others(text: &str, words: &[String], quantity: Quantity) -> Option<String> {
     let has = |known: &[&str]| words.iter().any(|word| known.contains(&word.as_str()));
-    let per = |known: &[&str]| {
-        let mut pairs = words.windows(2);
-        pairs.any(|two| PER.contains(&two[0].as_str()) && known.contains(&two[1].as_str()))
-    };
     if let Some((what, _)) = OTHERS.iter().find(|(_, known)| has(known)) {
         return Some(format!("the title speaks of {what}"));
     }
-    if per(&TIMES) {
+    if per(words, |word| TIMES.contains(&word)) {
         return Some("the title speaks of rates".to_owned());
     }
-    if per(&INTERVALS) || has(&SINCE) && has(&LAST) {
+    if are_increments(words) {
         return Some("the title speaks of increments".to_owned());
     }
     if has(&BOTH) && has(&FLANKS) {
         return Some("the title speaks of both flanks together".to_owned());
     }
-    if quantity == Quantity::MassLoss && per(&TEETH) {
+    if quantity == Quantity::MassLoss && per(words, |word| TEETH.contains(&word)) {
         return Some("the title speaks of single teeth".to_owned());
     }
     if quantity == Quantity::WearDepth && has(&THICKNESSES) {
@@ -219,7 +236,7 @@ mod tests {
 
     #[test]
     fn titles_of_other_values_are_refused() {
-        let depth = |text| refuse(text, 0, Quantity::WearDepth);
+        let depth = |text| refuse(text, 0, Quantity::WearDepth, &PerInterval::default());
         for (title, what) in [
             ("Depth [0.1 um]", "0.1 um"),
             ("Depth [10 \u{b5}m]", "10 "),
@@ -243,7 +260,7 @@ mod tests {
             let error = depth(title).unwrap_err().0;
             assert!(error.contains(what) && error.contains("row 1"), "{error}");
         }
-        let mass = |text| refuse(text, 2, Quantity::MassLoss);
+        let mass = |text| refuse(text, 2, Quantity::MassLoss, &PerInterval::default());
         for title in [
             "Massenverlust je Intervall [mg]",
             "mass loss per tooth [mg]",
@@ -270,9 +287,14 @@ mod tests {
             "mean of 3 teeth, wear in um",
             "Verschlei\u{df} [\u{b5}m], Modul 3,5 mm (b = 20 mm)",
         ] {
-            assert_eq!(refuse(title, 0, Quantity::WearDepth), Ok(()), "{title}");
+            assert_eq!(
+                refuse(title, 0, Quantity::WearDepth, &PerInterval::default()),
+                Ok(()),
+                "{title}"
+            );
         }
-        assert_eq!(refuse("Load share [%]", 0, Quantity::LoadShare), Ok(()));
-        assert_eq!(refuse("mass loss [mg]", 0, Quantity::MassLoss), Ok(()));
+        let of = |text, quantity| refuse(text, 0, quantity, &PerInterval::default());
+        assert_eq!(of("Load share [%]", Quantity::LoadShare), Ok(()));
+        assert_eq!(of("mass loss [mg]", Quantity::MassLoss), Ok(()));
     }
 }

@@ -7,6 +7,9 @@ use super::numbers::rounded;
 use super::{ImportError, cell_name};
 use crate::measure::{Place, Quantity, Subject};
 
+/// Part by which a total may fall by the noise of its measurement.
+const FALLS: f64 = 0.02;
+
 /// What a table gives for each interval alone.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct PerInterval {
@@ -38,6 +41,33 @@ impl PerInterval {
                 loss.name()
             ))),
         }
+    }
+
+    /// What is said of losses that are taken as totals and do not grow as totals do: of depths, which a datum may move, beside cycles of each interval only.
+    pub(super) fn doubt(&self, entries: &[Entry]) -> Option<String> {
+        let mut series: BTreeMap<Series, Vec<&Entry>> = BTreeMap::new();
+        let is_total = |entry: &&Entry| {
+            let is_loss = entry.quantity == Quantity::MassLoss
+                || self.cycles && Self::LOSSES.contains(&entry.quantity);
+            is_loss && !self.losses.contains(&entry.quantity)
+        };
+        for entry in entries.iter().filter(is_total) {
+            series.entry(series_of(entry)).or_default().push(entry);
+        }
+        let falls = series.values_mut().find_map(|own| {
+            own.sort_by(|a, b| a.cycles.total_cmp(&b.cycles));
+            let pair =
+                (own.windows(2)).find(|pair| pair[1].value < (1.0 - FALLS) * pair[0].value)?;
+            Some(pair[1])
+        })?;
+        Some(format!(
+            "{} is taken as the total since the start of the test, but falls at {}; if it{} is of each interval alone, say --per-interval {}{}",
+            falls.quantity.name(),
+            cell_name(falls.cell.0, falls.cell.1),
+            if self.cycles { " too" } else { "" },
+            if self.cycles { "cycles," } else { "" },
+            falls.quantity.name()
+        ))
     }
 
     /// Adds up the losses of each place along the rows, and says so. In a table with a cell for `each_checkpoint`, whole members have a value at

@@ -1,6 +1,6 @@
 //! Rows above a table's header: what they say of its values.
 
-use super::{ImportError, Sheet, other_values, units};
+use super::{ImportError, PerInterval, Sheet, other_values, units};
 use crate::measure::{Quantity, names};
 
 /// What the rows above a header say.
@@ -81,7 +81,12 @@ const NOT: [&str; 6] = ["not", "no", "nicht", "kein", "non", "pas"];
 
 impl Titles {
     /// Of the rows above `head`.
-    pub(super) fn of(sheet: &Sheet, head: usize, quantity: Quantity) -> Result<Self, ImportError> {
+    pub(super) fn of(
+        sheet: &Sheet,
+        head: usize,
+        quantity: Quantity,
+        per_interval: &PerInterval,
+    ) -> Result<Self, ImportError> {
         let mut titles = Self::default();
         for (row, cells) in sheet.rows.iter().enumerate().take(head) {
             let cells: Vec<&str> = cells
@@ -93,7 +98,7 @@ impl Titles {
             if text.is_empty() {
                 continue;
             }
-            other_values::refuse(&text, row, quantity)?;
+            other_values::refuse(&text, row, quantity, per_interval)?;
             let (unit, sign) = (unit(&text, quantity), lost_is_negative(&text));
             if unit.is_none() && sign.is_none() {
                 titles.passed_over.push((row + 1, text.clone()));
@@ -120,7 +125,8 @@ impl Titles {
         let cells: Vec<&str> = cells.filter(|cell| !cell.is_empty()).collect();
         let text = cells.join(" ");
         let of = |quantity: Quantity| {
-            unit(&text, quantity).is_some() || other_values::refuse(&text, 0, quantity).is_err()
+            unit(&text, quantity).is_some()
+                || other_values::refuse(&text, 0, quantity, &PerInterval::default()).is_err()
         };
         lost_is_negative(&text).is_some() || Quantity::ALL.into_iter().any(of)
     }

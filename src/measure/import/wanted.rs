@@ -219,7 +219,7 @@ impl Wanted<'_> {
         Some((id, rest.trim().to_owned()))
     }
 
-    /// The one test of which a title speaks: its id behind a word for tests, `wear, run A`.
+    /// The one test of which a title speaks: its id behind a word for tests, `wear, run A`, or an id that no other word is, `pinion V3`.
     pub(super) fn test_in_title(&self, title: &str) -> Option<&str> {
         let id = self.test_named(title)?;
         let follows_a_word_for_tests = |at: usize| {
@@ -227,9 +227,9 @@ impl Wanted<'_> {
             let last = before.last();
             last.is_some_and(|word| names::column(word) == Some("test"))
         };
-        places(id, title)
-            .any(follows_a_word_for_tests)
-            .then_some(id)
+        let has = |of: fn(char) -> bool| id.chars().any(of);
+        let is_no_word = has(char::is_alphabetic) && has(char::is_numeric);
+        (is_no_word || places(id, title).any(follows_a_word_for_tests)).then_some(id)
     }
 
     /// The one test whose id stands in a sheet's name or a header.

@@ -86,8 +86,8 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         .filter(|h| !h.is_empty())
         .collect();
     counts::refuse_others_above(sheet, head)?;
-    let titles =
-        Titles::of(sheet, head, quantity)?.without(|words| names_quantity(words) == Some(quantity));
+    let titles = Titles::of(sheet, head, quantity, &wanted.per_interval)?
+        .without(|words| names_quantity(words) == Some(quantity));
     let all: Vec<&str> = headers.iter().copied().chain([corner]).collect();
     let unit = wanted.unit_of_values(quantity, unit_of(&all, quantity)?, titles.unit.as_deref())?;
     let factor = units::factor(&unit.0, quantity)?;

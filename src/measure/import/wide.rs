@@ -142,7 +142,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
             || is_of_member
             || names::is_flank(words.split([' ', ':']).next().unwrap_or_default())
     };
-    let titles = Titles::of(sheet, head, quantity)?.without(is_used);
+    let titles = Titles::of(sheet, head, quantity, &wanted.per_interval)?.without(is_used);
     let unit = wanted.unit_of_values(quantity, said, titles.unit.as_deref())?;
     let turned = titles.turns_sign(wanted.turn_sign)?;
     let of_gear = counts_gear_revolutions(corner, &headers)?

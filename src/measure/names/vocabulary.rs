@@ -109,8 +109,12 @@ pub(super) const COLUMNS: [(&str, &[&str]); 10] = [
             "standarduncertainty",
             "streuung",
             "standardabweichung",
+            "standardabw",
+            "stdabw",
             "unsicherheit",
             "deviazionestandard",
+            "devstandard",
+            "devstd",
             "scartotipo",
             "incertezza",
             "incertezzatipo",
@@ -119,6 +123,9 @@ pub(super) const COLUMNS: [(&str, &[&str]); 10] = [
             "incertitudetype",
             "desviacionestandar",
             "desviaciontipica",
+            "desvestandar",
+            "desvest",
+            "desvtipica",
             "incertidumbre",
             "incertidumbretipica",
         ],
@@ -278,7 +285,7 @@ pub(super) const MEMBERS: [(Subject, &[&str]); 3] = [
 ];
 
 /// Names of the stops of a test, at which it is measured.
-pub(super) const STOPS: [&str; 14] = [
+pub(super) const STOPS: [&str; 17] = [
     "stop",
     "stage",
     "interval",
@@ -293,6 +300,9 @@ pub(super) const STOPS: [&str; 14] = [
     "etape",
     "intervalle",
     "etapa",
+    "palier",
+    "tappa",
+    "tramo",
 ];
 
 /// Names of columns that may number repeated measurements.

@@ -4,6 +4,9 @@ use crate::numeric::written::{capitalised, fixed, percent, significant};
 use crate::simulate::models::{Cause, Comparison, Kind, Means, Mounted, Quantity};
 use crate::simulate::numerics::FEW_EDGES;
 
+/// The last digit of a relative difference that is shown.
+const SHOWN: f64 = 1e-3;
+
 /// What holds over all misalignments.
 pub fn conclusions(comparison: &Comparison) -> Vec<String> {
     let all = &comparison.mounted;
@@ -13,11 +16,18 @@ pub fn conclusions(comparison: &Comparison) -> Vec<String> {
         (Quantity::DepthPinion, "pinion"),
         (Quantity::DepthGear, "gear"),
     ] {
-        let off = all
+        let off: Vec<f64> = all
             .iter()
             .filter_map(|m| ratio(m, quantity, Kind::Hertz))
-            .map(|r| r - 1.0);
-        if let Some(off) = off_by(off) {
+            .map(|r| r - 1.0)
+            .collect();
+        let is_shown = |off: &f64| off.abs() >= 0.5 * SHOWN;
+        if !off.is_empty() && !off.iter().any(is_shown) {
+            sentences.push(format!(
+                "On the {member}, the mean worn depths of the Hertz and finite-element models agree within {}.",
+                percent(SHOWN, 1)
+            ));
+        } else if let Some(off) = off_by(off.into_iter()) {
             let ways = all
                 .iter()
                 .map(|m| m.causes(quantity, Kind::Hertz, Kind::Fem));
@@ -206,15 +216,20 @@ fn off_by(values: impl Iterator<Item = f64>) -> Option<String> {
     })
 }
 
-/// The causes that change the mean most at most misalignments, each noted as `told`.
+/// The causes that add most to the difference of the means over the misalignments, each noted as `told`; those that act against it are none.
 fn blame(ways: impl Iterator<Item = Vec<(Cause, Means)>>, told: &mut Vec<Cause>) -> String {
     let mut sums: Vec<(Cause, f64)> = Vec::new();
-    for (cause, change) in ways.flatten() {
-        match sums.iter_mut().find(|(c, _)| *c == cause) {
-            Some((_, sum)) => *sum += change.whole.abs(),
-            None => sums.push((cause, change.whole.abs())),
+    for way in ways {
+        let total: f64 = way.iter().map(|(_, change)| change.whole).sum();
+        for (cause, change) in way {
+            let toward = change.whole * total.signum();
+            match sums.iter_mut().find(|(c, _)| *c == cause) {
+                Some((_, sum)) => *sum += toward,
+                None => sums.push((cause, toward)),
+            }
         }
     }
+    sums.retain(|(_, sum)| *sum > 0.0);
     sums.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut name = |cause: Cause| {
         if !told.contains(&cause) {
@@ -234,7 +249,33 @@ fn blame(ways: impl Iterator<Item = Vec<(Cause, Means)>>, told: &mut Vec<Cause>)
 
 #[cfg(test)]
 mod tests {
-    use super::off_by;
+    use super::*;
+
+    /// Tip contact and load share make the difference here; the feedback acts against it, though by more than the load share.
+    #[test]
+    fn what_acts_against_a_difference_is_not_its_cause() {
+        let way = |changes: [(Cause, f64); 3]| {
+            changes.map(|(cause, whole)| {
+                let means = Means {
+                    quantity: Quantity::DepthGear,
+                    regions: Vec::new(),
+                    whole,
+                };
+                (cause, means)
+            })
+        };
+        let down = [
+            (Cause::TipContact, -2.0),
+            (Cause::Feedback, 0.9),
+            (Cause::LoadShare, -0.7),
+        ];
+        let up = down.map(|(cause, change)| (cause, -change));
+        for changes in [down, up] {
+            let mut told = Vec::new();
+            let said = blame(std::iter::once(way(changes).to_vec()), &mut told);
+            assert_eq!(told, [Cause::TipContact, Cause::LoadShare], "{said}");
+        }
+    }
 
     #[test]
     fn differences_say_on_which_side_they_are() {

@@ -64,6 +64,13 @@ fn table(lines: &mut Vec<String>, mounted: &Mounted, quantity: Quantity) {
     if ladders.is_empty() {
         return;
     }
+    let is_zero = |ladder: &Ladder, column: usize| {
+        ladder.start[column].whole == 0.0 && ladder.end[column].whole == 0.0
+    };
+    if (ladders.iter()).all(|(ladder, column)| is_zero(ladder, *column)) {
+        lines.push(format!("  {}: none", quantity.label()));
+        return;
+    }
     let row = |first: String, cells: Vec<String>| {
         let cells: String = cells
             .iter()

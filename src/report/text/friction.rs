@@ -40,6 +40,15 @@ pub(in crate::report) fn of_losses(run: &Run) -> String {
     }
 }
 
+/// How warm friction losses make the teeth, where they do.
+pub(in crate::report) fn warmed_teeth(run: &Run) -> Option<String> {
+    let [flank, root] = run.conditions.warmed_teeth_c?;
+    let [flank, root] = [flank, root].map(|celsius| plain(0.1 * (10.0 * celsius).round()));
+    Some(format!(
+        "flank {flank} °C, root {root} °C (VDI 2736, from the friction losses)"
+    ))
+}
+
 /// For the flash temperature, where there is one.
 pub(in crate::report) fn of_flash(run: &Run) -> Option<String> {
     run.last().largest_flash_temperature()?;

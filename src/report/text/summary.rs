@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::friction::warmed_teeth;
 use super::peak::{KINK, at_kinks, elsewhere};
 use super::plausibility::implausible;
 use super::{
@@ -16,10 +17,11 @@ use crate::simulate::result::{Member, Run, State};
 pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
     let mut lines = head(run);
     for member in Member::BOTH {
-        lines.extend(wear(run.last(), member));
+        lines.extend(wear(run, member));
     }
     lines.extend(new_and_worn_figures(run));
     lines.extend(worst_teeth(run.last()));
+    lines.extend(warmed_teeth(run).map(|words| row("tooth temperature", &words)));
     lines.push(row("area balance", &percent(run.balance_error, 2)));
     lines.extend(
         implausible(run)
@@ -56,7 +58,8 @@ fn head(run: &Run) -> Vec<String> {
 }
 
 /// How deep `member` is worn and what it lost.
-fn wear(last: &State, member: Member) -> impl Iterator<Item = String> {
+fn wear(run: &Run, member: Member) -> impl Iterator<Item = String> {
+    let last = run.last();
     let flank = last.profile(member);
     let place = match flank.deepest().filter(|_| flank.max_depth() > 0.0) {
         Some(i) => format!(" at radius {} mm", significant(flank.radius[i], 5)),
@@ -68,7 +71,16 @@ fn wear(last: &State, member: Member) -> impl Iterator<Item = String> {
         significant(flank.mass_loss_mg, 4)
     );
     let across = deepest_on_the_face(last, member);
+    let below_corner = flank.deepest_below_corner(run.geometry.module).map(|i| {
+        let [depth, radius] =
+            [(flank.depth[i], 4), (flank.radius[i], 5)].map(|(v, n)| significant(v, n));
+        let words = format!(
+            "{depth} µm at radius {radius} mm; a sharp corner wears the deeper the finer its mesh"
+        );
+        row("  below the corner", &words)
+    });
     std::iter::once(row(&format!("{} wear", member.name()), &worn))
+        .chain(below_corner)
         .chain(across.map(|words| row("  across the face", &words)))
 }
 

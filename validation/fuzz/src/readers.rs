@@ -1,6 +1,6 @@
 //! Everything in gearwear that reads what others wrote, each as a function of bytes. A reader may refuse, never panic, hang or grow without limit.
 //!
-//! Used by the fuzzer here and by `tests/readers.rs`, which reads every kept finding and mutants of valid files again.
+//! Used by the fuzzer here and by `tests/program/readers.rs`, which reads every kept finding and mutants of valid files again.
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};

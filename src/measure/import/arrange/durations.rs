@@ -11,8 +11,12 @@ use crate::measure::import::{Decimal, ImportError, Sheet, Wanted, cell_name};
 use crate::measure::{Quantity, names};
 
 /// Words that make the name of a total one of an interval, beside those for stops.
-const OF_EACH: [&str; 12] = [
-    "per", "in", "each", "during", "je", "pro", "im", "ogni", "nell", "par", "chaque", "por",
+const OF_EACH: [&str; 9] = [
+    "per", "each", "during", "je", "pro", "ogni", "par", "chaque", "por",
+];
+/// Words that stand between.
+const BETWEEN: [&str; 11] = [
+    "in", "the", "im", "der", "dem", "nel", "nell", "nella", "dans", "la", "en",
 ];
 
 /// The sheet with the names of totals in place of those of intervals in its header, and the names that were changed, old and new. As it is where
@@ -74,8 +78,13 @@ fn of_total(cell: &str) -> Option<(String, Option<Quantity>)> {
     }
     let says_each =
         |word: &str| names::is_stop(word) || OF_EACH.contains(&names::folded(word).as_str());
-    let kept = cell.split_whitespace().filter(|word| !says_each(word));
-    let kept = kept.collect::<Vec<_>>().join(" ");
+    let stands_between = |word: &str| BETWEEN.contains(&names::folded(word).as_str());
+    if !cell.split_whitespace().any(says_each) && own.unit.is_none() {
+        return None;
+    }
+    let mut kept: Vec<&str> = cell.split_whitespace().collect();
+    kept.retain(|word| !says_each(word) && !stands_between(word));
+    let kept = kept.join(" ");
     match only(&kept)?.what {
         What::Own("cycles") => return Some((kept, None)),
         What::Values(loss) => return Some((kept, Some(loss))),

@@ -1,7 +1,7 @@
 //! How much of a header is understood, and what is said of the rest.
 
 use super::{Column, What, has, known_by_content, with_sides};
-use crate::measure::import::arrange::side;
+use crate::measure::import::arrange::{hint, side};
 use crate::measure::import::numbers::pointed;
 use crate::measure::import::wanted::Wanted;
 use crate::measure::import::{ImportError, Sheet};
@@ -86,8 +86,14 @@ pub(in crate::measure::import) fn refuse(
             "member" => !matches!(member, Ok(Some(_))),
             _ => true,
         });
+        let of_intervals = match hint(sheet) {
+            Some(hint) if missing.contains(&"cycles") || missing.contains(&"value") => {
+                format!("; {hint}")
+            }
+            _ => String::new(),
+        };
         return Err(ImportError(format!(
-            "it looks like a table with a row for each value, of which not enough is understood: {}",
+            "it looks like a table with a row for each value, of which not enough is understood: {}{of_intervals}",
             said(row, &columns, &missing)
         )));
     }
@@ -217,7 +223,18 @@ fn on_values(columns: &[Column], missing: &[&str]) -> String {
         What::Profile(When::After) => Some("`deviation before [um]`"),
         _ => None,
     });
-    other.map_or_else(String::new, |other| {
-        format!(". A loss is the difference of two measurements: {other} is the other one")
-    })
+    if let Some(other) = other {
+        return format!(". A loss is the difference of two measurements: {other} is the other one");
+    }
+    let is_mass = |column: &&Column| {
+        let unit = column.unit.as_deref();
+        column.what == What::Unknown && matches!(unit, Some("g" | "mg" | "kg"))
+    };
+    match columns.iter().find(is_mass) {
+        Some(column) => format!(
+            ". If `{}` holds masses or losses of mass, say --quantity mass_loss",
+            column.written
+        ),
+        None => String::new(),
+    }
 }

@@ -35,12 +35,13 @@ pub(super) fn refuse_times_of_each(
         let texts: Vec<&str> = stops.iter().map(|&row| cell(row, read.cycles)).collect();
         Err(ImportError(format!(
             "row {}: `{}` below `{written}` is not more than the `{}` of row {}, although {why}: {what} since the start of the test are wanted, not \
-             those of each stop. Add them up{}, or say --per-interval cycles",
+             those of each stop. Add them up{}, or say --per-interval cycles, or --per-interval cycles,{} where these too are of each stop alone",
             b + 1,
             cell(b, read.cycles),
             cell(a, read.cycles),
             a + 1,
-            totals(&texts)
+            totals(&texts),
+            first.quantity.name()
         )))
     };
     for rows in chains {

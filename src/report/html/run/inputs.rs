@@ -63,6 +63,9 @@ fn conditions(run: &Run) -> Table {
     if let Some(words) = text::friction_of_flash(run) {
         rows.push(("friction for the flash temperature", in_a_cell(words)));
     }
+    if let Some(words) = text::warmed_teeth(run) {
+        rows.push(("tooth temperature", words));
+    }
     rows.extend(materials(c));
     Table::of_values("", rows)
 }

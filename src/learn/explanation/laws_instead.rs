@@ -1,0 +1,104 @@
+//! Why a sum of waves along the profile is not taken for what acts by its place on the flank, and an effect that grows for any change over time.
+
+use super::findings::Findings;
+use crate::effects::variables;
+use crate::learn::decision::{CandidateEvidence, LawInsteadEvidence, Verdict};
+
+/// ln evidence by which a law must be ahead to be spoken of.
+const AHEAD: f64 = 1.0;
+
+/// Why waves are not named, whose deviation of the profile would wear away.
+const WAVES: &str = "a deviation of the profile wears away, what acts there does not";
+/// Why an effect that changes k over time alone is not.
+const SLOW_CHANGE: &str = "k changes over time, but in another way";
+
+/// What speaks for a free factor on k instead of an effect; none where that is named, and where no such factor is ahead.
+pub(super) fn instead(findings: &Findings<'_>) -> Vec<String> {
+    let verdict = findings.posterior.decision.verdict;
+    if !matches!(
+        verdict,
+        Verdict::Partial | Verdict::Unknown | Verdict::Ambiguous
+    ) {
+        return Vec::new();
+    }
+    let evidence = &findings.posterior.evidence;
+    let of = |laws: &[LawInsteadEvidence], why| instead_of_effect(laws, why, &evidence.candidates);
+    (of(&evidence.place_laws, WAVES).into_iter())
+        .chain(of(&evidence.time_laws, SLOW_CHANGE))
+        .collect()
+}
+
+/// The same of laws of one kind, and why.
+fn instead_of_effect(
+    laws: &[LawInsteadEvidence],
+    why: &str,
+    candidates: &[CandidateEvidence],
+) -> Option<String> {
+    let law = laws
+        .iter()
+        .max_by(|a, b| a.evidence_gain.total_cmp(&b.evidence_gain))?;
+    let mut with_effect: Vec<&CandidateEvidence> = (candidates.iter())
+        .filter(|c| c.effects.contains(&law.instead_of))
+        .collect();
+    with_effect.sort_by(|a, b| b.evidence_gain.total_cmp(&a.evidence_gain));
+    let best = with_effect.first()?;
+    let ahead = law.evidence_gain - best.evidence_gain;
+    (ahead > AHEAD).then(|| sentence(law, best, (ahead, why)))
+}
+
+fn sentence(
+    law: &LawInsteadEvidence,
+    best: &CandidateEvidence,
+    (ahead, why): (f64, &str),
+) -> String {
+    let replaced = law.instead_of.in_words();
+    let driver = law.law.split(':').nth(1).unwrap_or_default();
+    let meaning = variables::find(driver).map_or(driver, |v| v.meaning);
+    // which way it counts is told elsewhere
+    let meaning = meaning.split(',').next().unwrap_or(meaning);
+    let beside = match law.beside.is_empty() {
+        true => String::new(),
+        false => format!(" beside {}", law.beside.in_words()),
+    };
+    format!(
+        "A fit with {} is nearly as good, but a free factor on k by the {meaning} ({}){beside} has {ahead:.0} more of ln evidence: {why}. So \
+         {replaced} is not named.",
+        best.effects.in_words(),
+        law.law
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::find;
+    use crate::learn::hypothesis::EffectSet;
+
+    #[test]
+    fn the_law_its_driver_and_what_it_stands_beside_are_named() {
+        let set = |names: &[&str]| EffectSet::new(names.iter().map(|name| find(name).unwrap()));
+        let law = LawInsteadEvidence {
+            beside: set(&["debris_abrasion"]),
+            instead_of: set(&["profile_form"]),
+            law: "learned:s".to_owned(),
+            evidence_gain: 248.0,
+        };
+        let best = CandidateEvidence {
+            effects: set(&["debris_abrasion", "profile_form"]),
+            accepted_forms: 2,
+            identified: true,
+            evidence_gain: 229.0,
+            chi2_drop: 505.0,
+            scatter_gain: 0.0,
+        };
+        let said = sentence(&law, &best, (19.0, WAVES));
+        assert!(
+            said.starts_with("A fit with debris_abrasion and profile_form is nearly as good"),
+            "{said}"
+        );
+        assert!(
+            said.contains("(learned:s) beside debris_abrasion has 19 more"),
+            "{said}"
+        );
+    }
+}
