@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::findings::Findings;
 use super::ranked::{Ranked, form, parameters, ranked};
 use super::remainder::{Remainder, established, remainder};
-use super::sentences::{is_within_analytic_error, undecided};
+use super::undecided::{is_within_analytic_error, undecided};
 use super::warnings::warnings;
 use super::wording::Explanation;
 use crate::learn::checks::goodness_of_fit::GoodnessOfFit;

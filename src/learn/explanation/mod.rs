@@ -4,12 +4,16 @@ mod diagnosis;
 pub(in crate::learn) mod findings;
 mod laws_instead;
 mod learned;
+mod named;
+mod nothing_missing;
 mod outlook;
 mod ranked;
 mod remainder;
 mod rivals;
 mod scatter;
 mod sentences;
+mod undecided;
+mod unknown;
 mod warnings;
 mod wording;
 
