@@ -60,6 +60,12 @@ pub struct OilAndHeat {
 }
 
 impl Surroundings {
+    /// Temperatures of flank and root where friction losses make them, °C: stated ones are the same for both.
+    pub fn warmed_teeth_c(&self) -> Option<[f64; 2]> {
+        let (flank, root) = self.flank_temperature_c.zip(self.bulk_temperature_c)?;
+        (flank != root).then_some([flank, root])
+    }
+
     /// Sets `film_ratio`, `friction`, `flash_temperature` and `bulk_temperature` from the contact that `local` describes; 0 where
     /// [`Surroundings::at`] has none.
     pub fn complete(&self, local: &mut Local) {

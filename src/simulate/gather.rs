@@ -43,7 +43,7 @@ pub fn conditions(plan: &Plan) -> Conditions {
         poisson_ratio: set.materials.map(|m| m.poisson_ratio),
         density: set.densities,
         friction: stated::friction(plan),
-        warmed_teeth_c: stated::warmed_teeth(plan),
+        warmed_teeth_c: plan.surroundings.warmed_teeth_c(),
     }
 }
 

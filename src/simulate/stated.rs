@@ -29,13 +29,6 @@ pub(super) fn made(plan: &Plan) -> Made {
     }
 }
 
-/// Temperatures of flank and root where the two differ, which stated ones never do, °C.
-pub(super) fn warmed_teeth(plan: &Plan) -> Option<[f64; 2]> {
-    let oil = &plan.surroundings;
-    let both = oil.flank_temperature_c.zip(oil.bulk_temperature_c)?;
-    (both.0 != both.1).then_some([both.0, both.1])
-}
-
 /// Which friction is used for what.
 pub(super) fn friction(plan: &Plan) -> Friction {
     let oil = &plan.surroundings;

@@ -73,12 +73,6 @@ impl Operation {
             .filter(|_| self.flank_temperature_c == self.bulk_temperature_c)
     }
 
-    /// Temperatures of flank and root where friction losses make them, °C.
-    pub fn warmed_teeth_c(&self) -> Option<[f64; 2]> {
-        let (flank, root) = self.flank_temperature_c.zip(self.bulk_temperature_c)?;
-        (flank != root).then_some([flank, root])
-    }
-
     /// The same at another stated bulk temperature.
     pub fn at_temperature(&self, celsius: f64) -> Self {
         Self {

@@ -29,7 +29,7 @@ pub(super) fn summary(study: &Study, data: &Dataset, found: &Found<'_>, end: &st
     lines.push(String::new());
     for (number, test) in study.tests.iter().enumerate() {
         let is_bare = data.observations.iter().all(|o| o.test != number);
-        lines.push(operation(test, study.temperatures_differ(), is_bare));
+        lines.push(operation(study, test, is_bare));
     }
     lines.push(String::new());
     lines.extend(findings(data, found));
@@ -129,7 +129,7 @@ fn aligned(rows: &[[String; 10]]) -> Vec<String> {
 }
 
 /// How a test was run; `is_bare`: without a measurement.
-fn operation(test: &Test, with_temperature: bool, is_bare: bool) -> String {
+fn operation(study: &Study, test: &Test, is_bare: bool) -> String {
     let held = if test.role == Role::Holdout {
         ", held out"
     } else {
@@ -140,14 +140,14 @@ fn operation(test: &Test, with_temperature: bool, is_bare: bool) -> String {
         mm => format!(", misalignment {} mm", plain(mm)),
     };
     let tenths = |celsius: f64| plain(0.1 * (10.0 * celsius).round());
-    let warm = match test.conditions.warmed_teeth_c() {
+    let warm = match study.surroundings(&test.conditions).warmed_teeth_c() {
         Some([flank, root]) => format!(
             ", teeth at {} °C (flank) and {} °C (root) by VDI 2736",
             tenths(flank),
             tenths(root)
         ),
         None => (test.conditions.bulk_temperature_c)
-            .filter(|_| with_temperature)
+            .filter(|_| study.temperatures_differ())
             .map_or(String::new(), |celsius| format!(", {} °C", tenths(celsius))),
     };
     format!(

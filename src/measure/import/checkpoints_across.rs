@@ -68,15 +68,22 @@ fn checkpoints(cells: &[String]) -> Option<Vec<(usize, String)>> {
 /// The revolutions after which a column's values were taken; none for other columns.
 fn checkpoint(header: &str) -> Option<String> {
     let (name, unit) = name_and_unit(header);
-    let [count] = number_words(&name)[..] else {
+    let (count, rest) = count_and_rest(&name)?;
+    let is_bare = names::words(&name.replacen(&count, " ", 1)).is_empty();
+    (unit.is_none() && rest.is_empty() && !is_bare).then_some(count)
+}
+
+/// The one number of a header, as it is written, and its words but those that say that it counts revolutions, or that something was after them.
+pub(super) fn count_and_rest(name: &str) -> Option<(String, Vec<String>)> {
+    let [count] = number_words(name)[..] else {
         return None;
     };
     let says_when = |word: &String| {
         names::revolutions(word).is_some() || names::time_alone(word) == Some(When::After)
     };
-    let rest = names::words(&name.replacen(count, " ", 1));
-    let says_nothing_else = !rest.is_empty() && rest.iter().all(says_when);
-    (unit.is_none() && says_nothing_else).then(|| count.to_owned())
+    let mut rest = names::words(&name.replacen(count, " ", 1));
+    rest.retain(|word| !says_when(word));
+    Some((count.to_owned(), rest))
 }
 
 #[cfg(test)]
@@ -113,6 +120,7 @@ mod tests {
             "Member|Mass loss [mg]|60000 cycles|300000 cycles",
             "Test|60000 cycles|300000 cycles",
             "Test|Member|60000 cycles",
+            "Test|Member|60 000|300 000",
         ] {
             let sheet = Sheet::of_rows(&[other, "1|2|3|4"]);
             assert!(checkpoints_across(&sheet, masses).is_none(), "{other}");

@@ -1,6 +1,6 @@
 //! A row for each member with a column for each weighing: `Test | Member | Mass new [g] | Mass after 40000 cycles [g] | Mass after 100000 cycles [g]`.
 
-use super::numbers::number_words;
+use super::checkpoints_across::count_and_rest;
 use super::{Sheet, columns, units};
 use crate::measure::names::{self, When};
 
@@ -62,16 +62,8 @@ fn weighing(header: &str) -> Option<(String, Option<String>)> {
     if names::weighed(&name) == Some(When::Before) {
         return Some(("0".to_owned(), unit));
     }
-    let [count] = number_words(&name)[..] else {
-        return None;
-    };
-    let rest = name.replacen(count, " ", 1);
-    let says_when = |word: &String| {
-        names::revolutions(word).is_some() || names::time_alone(word) == Some(When::After)
-    };
-    let mut rest = names::words(&rest);
-    rest.retain(|word| !says_when(word));
-    names::is_mass(&rest.join(" ")).then(|| (count.to_owned(), unit))
+    let (count, rest) = count_and_rest(&name)?;
+    names::is_mass(&rest.join(" ")).then_some((count, unit))
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@
 //! ```
 
 use super::super::residual_statistics::FittedRow;
-use super::{EXPLAINS, NEAR, Quantity, Subject, rounded, scale};
+use super::{EXPLAINS, Quantity, Subject, rounded, scale};
 use crate::numeric::median;
 use crate::study::Study;
 
@@ -14,6 +14,8 @@ use crate::study::Study;
 const FAR: f64 = 12.0;
 /// Factor within which the others lie.
 const ALIKE: f64 = 3.0;
+/// Factor within which a ratio is that of a known unit: tests scatter by as much.
+const NEAR_UNIT: f64 = 1.5;
 /// Fewest others.
 const OTHERS: usize = 3;
 
@@ -81,7 +83,7 @@ fn in_words(quantity: Quantity, test: &str, member: Subject, factor: f64) -> Str
     };
     let near = units
         .iter()
-        .find(|(of, _)| (times / of).ln().abs() < (1.0 + NEAR).ln() * 2.0);
+        .find(|(of, _)| (times / of).ln().abs() < NEAR_UNIT.ln());
     let looks = near.map_or("look at its unit".to_owned(), |(_, name)| {
         format!("this looks like {name}")
     });
