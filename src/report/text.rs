@@ -132,15 +132,8 @@ fn wear(run: &Run) -> Vec<String> {
             Some(i) => format!(" ({})", region(run, flank.path[i])),
             None => String::new(),
         };
-        let below = flank.deepest_below_corner(run.geometry.module);
-        let below = below.map_or(String::new(), |i| {
-            format!(
-                ", below its tip corner, which wears the deeper the finer the mesh, by up to {} µm",
-                significant(flank.depth[i], 3)
-            )
-        });
         format!(
-            "the {} by up to {} µm{place}{below}",
+            "the {} by up to {} µm{place}",
             member.name(),
             significant(flank.max_depth(), 3)
         )
@@ -149,6 +142,15 @@ fn wear(run: &Run) -> Vec<String> {
         "After {} pinion revolutions wear has lowered {pinion} and {gear}.",
         count(last.cycles),
     )];
+    sentences.extend(Member::BOTH.into_iter().filter_map(|member| {
+        let flank = last.profile(member);
+        let below = flank.deepest_below_corner(run.geometry.module)?;
+        Some(format!(
+            "Of the {} that is the sharp tip corner, which wears the deeper the finer its mesh; below it the flank is worn by up to {} µm.",
+            member.name(),
+            significant(flank.depth[below], 3)
+        ))
+    }));
     let across = |member: Member| {
         let words = deepest_on_the_face(last, member)?;
         Some(format!("the {} by {words}", member.name()))
