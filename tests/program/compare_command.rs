@@ -541,6 +541,7 @@ fn spoiled(home: &TempDir, change: impl Fn(&mut Vec<String>)) -> Value {
 const MEMBER: usize = 1;
 const CYCLES: usize = 2;
 const QUANTITY: usize = 3;
+const POSITION: usize = 4;
 const VALUE: usize = 5;
 const SIGMA: usize = 6;
 
@@ -639,6 +640,38 @@ fn measurements_that_cannot_be_meant_so_are_told_first() {
             }
         },
         &["times more wear than their masses", "look like g"],
+    );
+    // one flank's places in the other order
+    let data = fs::read_to_string(home.path().join("data/measurements.csv")).unwrap();
+    let is_of = |cells: &[&str]| cells[..2] == ["A", "pinion"] && cells[QUANTITY] == "wear_depth";
+    let rows = data
+        .lines()
+        .map(|line| line.split(',').collect::<Vec<&str>>());
+    let rows = rows.filter(|cells| cells.len() > SIGMA && is_of(cells));
+    let places: Vec<f64> = rows.map(|cells| cells[POSITION].parse().unwrap()).collect();
+    let ends = [f64::INFINITY, f64::NEG_INFINITY];
+    let ends = (places.iter()).fold(ends, |[low, high], r| [low.min(*r), high.max(*r)]);
+    told(
+        &|cells| {
+            let own: Vec<&str> = cells.iter().map(String::as_str).collect();
+            if is_of(&own) {
+                let place: f64 = cells[POSITION].parse().unwrap();
+                cells[POSITION] = (ends[0] + ends[1] - place).to_string();
+            }
+        },
+        &["wear_depth of the pinion runs the other way along the flank in test A than in B"],
+    );
+    // one member of one test in another unit
+    told(
+        &|cells| {
+            if is(cells, "mass_loss") && cells[0] == "B" && cells[MEMBER] == "gear" {
+                times(cells, 1e-3);
+            }
+        },
+        &[
+            "mass_loss of the gear in test B lies",
+            "below what all others ask for: this looks like g, it is wanted in mg",
+        ],
     );
     told(
         &|cells| {
