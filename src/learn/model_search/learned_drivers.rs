@@ -387,7 +387,7 @@ mod tests {
             variance_share,
         };
         let cycles = driver("cycles", 0.88);
-        let mut laws = ["p", "s", "radius", "film_ratio", "cycles", "depth"];
+        let mut laws = ["p", "s", "radius", "film_ratio", "depth", "cycles"];
         let closely = brought_forward(&mut laws, |law| is_of(law, &cycles));
         assert_eq!(laws, ["p", "s", "radius", "cycles", "film_ratio", "depth"]);
         assert_eq!(closely, CLOSELY + 1);
