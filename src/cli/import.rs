@@ -49,10 +49,13 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
             .collect();
         for (n, part) in parts.iter().enumerate() {
             if let Err(error) = take(part) {
-                let refused: Vec<&str> = (parts[n + 1..].iter())
+                let mut refused: Vec<&str> = (parts[n + 1..].iter())
+                    .filter(|(_, other)| other.name != part.1.name)
                     .filter(|part| take(part).is_err())
                     .map(|(_, sheet)| sheet.name.as_str())
                     .collect();
+                // those of one sheet follow one another
+                refused.dedup();
                 return Err(beside_others(error, sheets, &refused));
             }
         }
@@ -123,7 +126,15 @@ fn chosen<'s>(
 
 /// The tables of a sheet, each with its name.
 fn parts(table: &Path, sheet: &Sheet, wanted: &Wanted<'_>) -> Vec<(String, Sheet)> {
-    let name = named(table, sheet);
+    let mut name = named(table, sheet);
+    let in_one_row = import::checkpoints_above(sheet);
+    let sheet = match &in_one_row {
+        Some((in_one_row, row)) => {
+            name += &format!(" (checkpoints above the header, in row {row})");
+            in_one_row
+        }
+        None => sheet,
+    };
     let parts = import::side_by_side(sheet).or_else(|| import::labelled_blocks(sheet, wanted));
     match parts {
         Some(parts) => (parts.into_iter())

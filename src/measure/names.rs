@@ -19,8 +19,8 @@ use measured::{
 };
 pub(super) use uncertainties::{is_confidence_interval, is_expanded_uncertainty, sigmas};
 use vocabulary::{
-    AFTER, BASE_PITCHES, BEFORE, COLUMNS, FILLERS, FLANKS, FOR_PEOPLE, HINTS, MEANS, MEMBERS,
-    REPEATS, STOPS, SUMMARIES, TOTALS,
+    AFTER, BASE_PITCHES, BEFORE, COLUMNS, CUMULATIVE, FILLERS, FLANKS, FOR_PEOPLE, HINTS, MEANS,
+    MEMBERS, REPEATS, STOPS, SUMMARIES, TOTAL_COUNTS, TOTALS,
 };
 
 /// Which of two measurements of a part.
@@ -63,6 +63,18 @@ fn telling(name: &str) -> Vec<String> {
     let mut words = words(name);
     if words.len() > 1 {
         words.retain(|word| !FILLERS.contains(&word.as_str()));
+    }
+    if words.len() > 1 {
+        words.retain(|word| !CUMULATIVE.contains(&word.as_str()));
+    }
+    words
+}
+
+/// The same of a count, or of a running time: `total cycles` is `cycles`.
+fn counted(name: &str) -> Vec<String> {
+    let mut words = telling(name);
+    if words.len() > 1 {
+        words.retain(|word| !TOTAL_COUNTS.contains(&word.as_str()));
     }
     words
 }
@@ -144,7 +156,7 @@ pub(super) fn one_member(text: &str) -> Option<Subject> {
 
 /// Whose revolutions a name counts, `None` inside if it does not say; none if it counts no revolutions.
 pub(super) fn revolutions(name: &str) -> Option<Option<Subject>> {
-    let (of, counts): (Vec<String>, Vec<String>) = (telling(name).into_iter())
+    let (of, counts): (Vec<String>, Vec<String>) = (counted(name).into_iter())
         .flat_map(member_apart)
         .partition(|word| member(word).is_some());
     let count = counts.concat();
@@ -403,6 +415,19 @@ mod tests {
                 assert_eq!(column(name), Some(means), "{name}");
             }
         }
+        for name in [
+            "Lastwechsel kumuliert",
+            "Lastwechsel gesamt",
+            "total cycles",
+            "Ciclos acumulados",
+            "cycles cumul\u{e9}s",
+        ] {
+            assert_eq!(revolutions(name), Some(None), "{name}");
+        }
+        assert_eq!(revolutions("total"), None);
+        let total = quantity("Massenverlust kumuliert").map(|q| q.0);
+        assert_eq!(total, Some(Quantity::MassLoss));
+        assert_eq!(quantity("total mass"), None);
         assert_eq!(column("time"), None);
         assert_eq!(near_column("time"), Some("cycles"));
         assert_eq!(near_column("depth"), Some("value"));

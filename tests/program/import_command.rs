@@ -25,6 +25,7 @@ mod nothing_measured;
 mod other_values;
 mod several_tables;
 mod titles;
+mod two_headers;
 mod uncertainties;
 mod wide_tables;
 

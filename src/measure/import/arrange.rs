@@ -43,6 +43,8 @@ pub(super) struct Arranged {
     pub(super) left_out: Vec<String>,
     /// Whether the values are what deviations lost, whatever the sign of these.
     pub(super) differences: bool,
+    /// Whether masses are what was lost between two weighings.
+    pub(super) weighed: bool,
     /// Of each table the rows that go on where another one ended, in the order of the stops.
     pub(super) stops: Vec<Vec<Vec<usize>>>,
 }
@@ -139,7 +141,7 @@ fn completed(
     if sheets.len() > 1 {
         said.push("the columns of the pinion and of the gear side by side".to_owned());
     }
-    let mut differences = false;
+    let (mut differences, mut weighed) = (false, false);
     let mut stops = Vec::new();
     let mut added_up = true;
     for table in &mut sheets {
@@ -162,6 +164,7 @@ fn completed(
         });
         let of_profiles = profiles::as_depths(table, head, &header, wanted, &mut said)?;
         differences |= of_gauges || of_profiles;
+        weighed |= of_masses;
         let since_new = [
             (of_masses, Quantity::MassLoss),
             (of_gauges, Quantity::SpanLoss),
@@ -195,6 +198,7 @@ fn completed(
         said,
         left_out: Vec::new(),
         differences,
+        weighed,
         stops,
     }))
 }

@@ -112,7 +112,7 @@ impl Column {
             What::Nameless
         } else if names::is_for_people(&name) {
             What::ForPeople
-        } else if cell_sigmas::is_sign(&name) {
+        } else if cell_sigmas::is_sign(&name) || is_letter_of_sigma(&name, unit.as_deref()) {
             What::Own("sigma")
         } else if revolutions.is_some() || hours.is_some() {
             What::Own("cycles")
@@ -186,6 +186,12 @@ impl Column {
 fn weighed(name: &str, unit: Option<&str>) -> Option<When> {
     let is_mass = unit.is_some_and(|unit| units::factor(unit, Quantity::MassLoss).is_ok());
     names::weighed(name).or_else(|| names::time_alone(name).filter(|_| is_mass))
+}
+
+/// Whether a name is the letter of one standard deviation: `σ`, and `s` in a unit that no length of the flank or time is written in. A capital one is a sum.
+fn is_letter_of_sigma(name: &str, unit: Option<&str>) -> bool {
+    let of_values = |unit: &str| ["um", "mg", "g"].iter().any(|of| units::are_same(of, unit));
+    name.trim() == "\u{3c3}" || name.trim() == "s" && unit.is_some_and(of_values)
 }
 
 /// What a name means that says how many standard deviations it is (`2 sigma`), or that it is a confidence interval (`95% CI`); none for others.
@@ -296,14 +302,8 @@ pub(super) fn known_by_content(
         "test" => is_test(text),
         _ => is_member(text),
     };
-    let holds = |column: &Column, is_it: &dyn Fn(&str) -> bool| {
-        let below = sheet.rows[head + 1..].iter();
-        let mut cells = below
-            .filter_map(|row| row.get(column.at))
-            .filter(|cell| !cell.is_empty())
-            .peekable();
-        cells.peek().is_some() && cells.all(|cell| is_it(cell))
-    };
+    let holds =
+        |column: &Column, is_it: &dyn Fn(&str) -> bool| holds_only(sheet, head, column.at, is_it);
     for name in ["test", "member"] {
         if has(columns, name) {
             continue;
@@ -322,6 +322,21 @@ pub(super) fn known_by_content(
             column.numbered = holds(column, &|text| names::numbered_member(text).is_some());
         }
     }
+}
+
+/// Whether a column has something below its header in row `head`, and all of it passes.
+pub(super) fn holds_only(
+    sheet: &Sheet,
+    head: usize,
+    at: usize,
+    is_it: impl Fn(&str) -> bool,
+) -> bool {
+    let below = sheet.rows[head + 1..].iter();
+    let mut cells = below
+        .filter_map(|row| row.get(at))
+        .filter(|cell| !cell.is_empty())
+        .peekable();
+    cells.peek().is_some() && cells.all(|cell| is_it(cell))
 }
 
 fn has(columns: &[Column], name: &str) -> bool {
@@ -408,6 +423,12 @@ mod tests {
         );
         let gear = Column::of(0, "cycles (gear)");
         assert!(gear.of_gear && gear.what == What::Own("cycles"));
+        for sigma in ["\u{3c3}", "\u{3c3} [\u{b5}m]", "s [\u{b5}m]", "s (mg)"] {
+            assert_eq!(Column::of(0, sigma).what, What::Own("sigma"), "{sigma}");
+        }
+        for other in ["\u{3a3}", "s", "s [mm]", "s [h]"] {
+            assert_ne!(Column::of(0, other).what, What::Own("sigma"), "{other}");
+        }
         assert!(Column::of(0, "Umdrehungen Rad").of_gear);
         assert!(!Column::of(0, "revolutions of the pinion").of_gear);
     }

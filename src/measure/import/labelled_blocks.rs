@@ -1,6 +1,6 @@
 //! A wide table with a second row of headers above its own, each over several columns: `Wear pinion T1 | | | Wear pinion T2`, the checkpoints of each below.
 
-use super::numbers::{number_words, pointed};
+use super::numbers::{has_one_number, pointed};
 use super::side_by_side::letters;
 use super::{Sheet, Wanted};
 use crate::measure::names;
@@ -20,7 +20,7 @@ fn below_labels(sheet: &Sheet, head: usize, wanted: &Wanted<'_>) -> Option<Vec<(
     let columns = filled(header);
     let is_headed = |at: &usize| {
         let cell = &header[*at];
-        number_words(cell).len() == 1 || names::one_member(cell).is_some()
+        has_one_number(cell) || names::one_member(cell).is_some()
     };
     let below = sheet.rows[head + 1..].iter();
     let mut first_cells = below.filter_map(|cells| cells.first().filter(|cell| !cell.is_empty()));
@@ -45,6 +45,15 @@ fn below_labels(sheet: &Sheet, head: usize, wanted: &Wanted<'_>) -> Option<Vec<(
         "" => ("", over),
         _ => (over, corner),
     };
+    // a row further above may say something of each block too: `| Pinion | | Gear`
+    let is_of_blocks = |cells: &[String]| {
+        let own = filled(cells);
+        own.len() > 1 && own.iter().all(|at| starts.contains(at))
+    };
+    let over_block = |cells: &[String], start: usize| {
+        let own = filled(cells).into_iter().rfind(|at| *at <= start);
+        own.map_or(String::new(), |at| cells[at].clone())
+    };
     let ends = starts.iter().copied().skip(1).chain([usize::MAX]);
     let blocks = starts.iter().zip(ends).zip(&labels);
     let block = |((&start, end), label): ((&usize, usize), &String)| {
@@ -54,7 +63,10 @@ fn below_labels(sheet: &Sheet, head: usize, wanted: &Wanted<'_>) -> Option<Vec<(
         let (first, last) = (*own.first()?, *own.last()?);
         let rows = sheet.rows.iter().enumerate().map(|(row, cells)| {
             if row + 1 < head {
-                return cells.clone();
+                return match is_of_blocks(cells) {
+                    true => vec![over_block(cells, start)],
+                    false => cells.clone(),
+                };
             }
             if row + 1 == head {
                 let words = [label.as_str(), of_all];

@@ -95,6 +95,7 @@ fn of_sheet(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
         said,
         left_out,
         differences,
+        weighed,
         stops,
     }) = arranged(sheet, wanted)?
     else {
@@ -110,7 +111,7 @@ fn of_sheet(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
     let tables: Vec<Long> = sheets
         .iter()
         .zip(&stops)
-        .map(|(own, stops)| of_columns((own, sheet, head), (differences, stops), wanted))
+        .map(|(own, stops)| of_columns((own, sheet, head), (differences, weighed, stops), wanted))
         .collect::<Result<_>>()?;
     let joined = tables.into_iter().reduce(Long::joined);
     Ok(joined.map(|long| Long {
@@ -123,7 +124,7 @@ fn of_sheet(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
 /// The mapping of a table with a column for everything, made of a `whole` sheet.
 fn of_columns(
     (sheet, whole, head): (&Sheet, &Sheet, usize),
-    (differences, stops): (bool, &[Vec<usize>]),
+    (differences, weighed, stops): (bool, bool, &[Vec<usize>]),
     wanted: &Wanted<'_>,
 ) -> Result<Long> {
     nameless::refuse_numbers(sheet, head, 0)?;
@@ -232,7 +233,7 @@ fn of_columns(
     if read.sigma.is_none() {
         state_sigma(&mut entries, wanted)?;
     }
-    arranged.extend(wanted.per_interval.doubt(&entries));
+    arranged.extend(wanted.per_interval.doubt(&entries, weighed));
     arranged.extend(wanted.per_interval.add_up(&mut entries, false)?);
     let unit = single.map(|quantity| {
         wanted.unit_of_values(quantity, read.value.unit.as_deref(), titles.unit.as_deref())

@@ -10,6 +10,7 @@ mod append;
 mod arrange;
 mod cell_sigmas;
 mod cells;
+mod checkpoints_above;
 mod checkpoints_across;
 mod columns;
 mod conditions_above;
@@ -53,6 +54,7 @@ mod xlsx;
 
 pub use append::appended;
 pub use cells::{Sheet, sheets};
+pub use checkpoints_above::checkpoints_above;
 pub use checkpoints_across::checkpoints_across;
 pub use entry::{Entry, lines};
 pub use labelled_blocks::labelled_blocks;

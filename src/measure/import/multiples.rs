@@ -272,7 +272,7 @@ fn of_unit(unit: &str) -> Option<f64> {
     if let "mio" | "mill" | "million" | "millions" | "millionen" | "milioni" | "millones" = unit {
         return Some(1e6);
     }
-    if let "tsd" | "thousand" | "thousands" | "tausend" = unit {
+    if let "tsd" | "thousand" | "thousands" | "tausend" | "miles" | "milliers" | "migliaia" = unit {
         return Some(1e3);
     }
     const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
@@ -326,6 +326,7 @@ mod tests {
         for (header, expected) in [
             ("Lastwechsel [1E6]", Some(1e6)),
             ("Lastwechsel [10^6]", Some(1e6)),
+            ("Vueltas del pi\u{f1}\u{f3}n (miles)", Some(1e3)),
             ("load cycles (x 10^3)", Some(1e3)),
             ("Pinion revs (x1000)", Some(1e3)),
             ("revolutions [\u{d7} 1,000,000]", Some(1e6)),

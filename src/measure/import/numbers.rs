@@ -331,6 +331,12 @@ pub(super) fn without_blanks(text: &str) -> Option<String> {
         .then(|| [before, &[joined.as_str()], behind].concat().join(" "))
 }
 
+/// Whether a header holds one number, blanks between its thousands or not.
+pub(super) fn has_one_number(header: &str) -> bool {
+    let plain = without_blanks(header);
+    number_words(plain.as_deref().unwrap_or(header)).len() == 1
+}
+
 /// The words of a text that hold digits.
 pub(super) fn number_words(text: &str) -> Vec<&str> {
     let part = |c: char| c.is_ascii_digit() || "+-.,eE".contains(c);

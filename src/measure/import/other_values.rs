@@ -95,6 +95,14 @@ const LAST: [&str; 6] = [
     "last", "previous", "letzter", "letzten", "letztem", "derniere",
 ];
 const SINCE: [&str; 4] = ["since", "seit", "depuis", "dalla"];
+/// Words before a stop, with an article between, by which a title speaks of that stop alone: `du palier`, `in the interval`.
+const WITHIN: [&str; 15] = [
+    "im", "du", "dans", "pendant", "del", "della", "dell", "nel", "nella", "nell", "durante",
+    "during", "within", "in", "wahrend",
+];
+const ARTICLES: [&str; 10] = [
+    "the", "le", "la", "l", "lo", "el", "der", "dem", "des", "each",
+];
 /// Units that are not read.
 const FOREIGN: [&str; 11] = [
     "%",
@@ -162,7 +170,28 @@ fn per(words: &[String], is_meant: impl Fn(&str) -> bool) -> bool {
 /// Whether a title speaks of what was lost since the last measurement.
 fn are_increments(words: &[String]) -> bool {
     let has = |known: &[&str]| words.iter().any(|word| known.contains(&word.as_str()));
-    has(&INCREMENTS) || per(words, names::is_stop) || has(&SINCE) && has(&LAST)
+    has(&INCREMENTS)
+        || per(words, names::is_stop)
+        || has(&SINCE) && has(&LAST)
+        || is_within_a_stop(words)
+}
+
+/// Whether a title speaks of what was lost between two stops, `Verlust im Abschnitt`; a numbered one says when it was measured.
+fn is_within_a_stop(words: &[String]) -> bool {
+    let is = |at: Option<usize>, known: &[&str]| {
+        at.is_some_and(|at| known.contains(&words[at].as_str()))
+    };
+    (0..words.len()).any(|at| {
+        let before = at.checked_sub(1);
+        let follows = match is(before, &ARTICLES) {
+            true => is(at.checked_sub(2), &WITHIN),
+            false => is(before, &WITHIN) && !is(before, &["in"]),
+        };
+        let is_numbered = words
+            .get(at + 1)
+            .is_some_and(|next| next.starts_with(|c: char| c.is_ascii_digit()));
+        names::is_stop(&words[at]) && follows && !is_numbered
+    })
 }
 
 /// What the values are by a title, if it is something else.
@@ -256,6 +285,9 @@ mod tests {
             ("Verschlei\u{df} beider Flanken [\u{b5}m]", "both flanks"),
             ("wear since last inspection [um]", "increments"),
             ("Verschlei\u{df} je Intervall [\u{b5}m]", "increments"),
+            ("Verschlei\u{df} im Abschnitt [\u{b5}m]", "increments"),
+            ("Usure pendant le palier [\u{b5}m]", "increments"),
+            ("wear in the interval [um]", "increments"),
         ] {
             let error = depth(title).unwrap_err().0;
             assert!(error.contains(what) && error.contains("row 1"), "{error}");
@@ -280,6 +312,8 @@ mod tests {
             "Verschlei\u{df}tiefe [\u{b5}m], linke Flanke, Versuch 12",
             "Wear depth (pinion, left flank)",
             "Wear measured after each stop [um]",
+            "Verschlei\u{df} im Abschnitt 3 [\u{b5}m]",
+            "Wear in stage 2 [um]",
             "Wear test 12, 1500 rpm",
             "both flanks measured on 3 May",
             "Verschlei\u{df}messung, Umfang: 5 Versuche",

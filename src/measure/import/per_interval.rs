@@ -44,7 +44,8 @@ impl PerInterval {
     }
 
     /// What is said of losses that are taken as totals and do not grow as totals do: of depths, which a datum may move, beside cycles of each interval only.
-    pub(super) fn doubt(&self, entries: &[Entry]) -> Option<String> {
+    /// Those between two weighings are totals beyond doubt.
+    pub(super) fn doubt(&self, entries: &[Entry], weighed: bool) -> Option<String> {
         let mut series: BTreeMap<Series, Vec<&Entry>> = BTreeMap::new();
         let is_total = |entry: &&Entry| {
             let is_loss = entry.quantity == Quantity::MassLoss
@@ -60,6 +61,15 @@ impl PerInterval {
                 (own.windows(2)).find(|pair| pair[1].value < (1.0 - FALLS) * pair[0].value)?;
             Some(pair[1])
         })?;
+        if weighed {
+            return Some(format!(
+                "{} of the {} in test {} falls at row {}, and what is worn off does not come back: look at that weighing and at the one before it",
+                falls.quantity.name(),
+                falls.member.name(),
+                falls.test,
+                falls.cell.0 + 1
+            ));
+        }
         Some(format!(
             "{} is taken as the total since the start of the test, but falls at {}; if it{} is of each interval alone, say --per-interval {}{}",
             falls.quantity.name(),

@@ -1,7 +1,7 @@
 //! Several wide tables side by side on one sheet, `Radius [mm]; 1e5; 2e5; ; Radius [mm]; 1e5; 2e5`: of the pinion and the gear, or of several tests.
 
 use super::arrange::side;
-use super::numbers::number_words;
+use super::numbers::has_one_number;
 use super::{Sheet, cell_name, units};
 use crate::measure::names;
 
@@ -64,7 +64,7 @@ fn starts(cells: &[String]) -> Option<Vec<usize>> {
     let is_table = |(start, end): (&usize, usize)| {
         let behind = cells[start + 1..end].iter();
         let mut filled = behind.filter(|cell| !cell.is_empty()).peekable();
-        filled.peek().is_some() && filled.all(|cell| number_words(cell).len() == 1)
+        filled.peek().is_some() && filled.all(|cell| has_one_number(cell))
     };
     (places.len() > 1 && places.iter().zip(ends).all(is_table)).then_some(places)
 }
@@ -98,6 +98,8 @@ mod tests {
         let named = "Diametro pignone [mm]|1e5|2e5||Radius gear [mm]|1e5";
         let parts = side_by_side(&Sheet::of_rows(&[named])).unwrap();
         assert_eq!(parts[1].1.rows[0], ["Radius gear [mm]", "1e5"]);
+        let blanks = "Rayon pignon (mm)|60 000|300 000 tours|Rayon roue (mm)|60 000|300 000 tours";
+        assert!(side_by_side(&Sheet::of_rows(&[blanks])).is_some());
         for other in [
             "Radius [mm]|1e5|2e5",
             "Radius [mm]|depth pinion|Radius [mm]|depth gear",

@@ -174,7 +174,7 @@ impl Wanted<'_> {
                 sheet.name
             ))),
             (Some(id), _, _) => Ok((id.to_owned(), None)),
-            (None, Some(id), _) => Ok((id.to_owned(), Some("the sheet's name says so"))),
+            (None, Some(id), _) => Ok((id.to_owned(), Some("by the sheet's name"))),
             (None, None, [one]) => Ok(((*one).to_owned(), None)),
             (None, None, tests) => Err(ImportError(format!(
                 "name the test with --test; the study's tests: {}. If the study lacks it, add a [[test]] to the study",

@@ -1,11 +1,19 @@
-//! A row for each member with a column for each weighing: `Test | Member | Mass new [g] | Mass after 40000 cycles [g] | Mass after 100000 cycles [g]`.
+//! A row for each member with a column for each weighing: `Test | Member | Mass new [g] | Mass after 40000 cycles [g] | Mass after 100000 cycles [g]`;
+//! or one for each test, the weighings of both members side by side: `Test | Pinion m0 [g] | Pinion 40000 cycles [g] | Gear m0 [g] | Gear 40000 cycles [g]`.
 
 use super::checkpoints_across::count_and_rest;
 use super::{Sheet, columns, units};
 use crate::measure::names::{self, When};
+use crate::measure::thousands::in_thousands;
+use crate::measure::{Quantity, Subject};
+
+/// Letters for the mass of a new part.
+const NEW: [&str; 3] = ["m0", "m₀", "masse0"];
 
 /// The same with a row for each weighing but the first, both side by side; none for other sheets.
 pub fn weighings_across(sheet: &Sheet) -> Option<Sheet> {
+    let by_member = members_below(sheet);
+    let sheet = by_member.as_ref().unwrap_or(sheet);
     let (head, weighings) =
         (sheet.rows.iter().enumerate()).find_map(|(row, cells)| Some((row, weighings(cells)?)))?;
     let header = &sheet.rows[head];
@@ -42,6 +50,75 @@ pub fn weighings_across(sheet: &Sheet) -> Option<Sheet> {
         rows,
         ..sheet.clone()
     })
+}
+
+/// A row for each member in place of one for each test whose weighings of both stand side by side; none for other sheets.
+fn members_below(sheet: &Sheet) -> Option<Sheet> {
+    let (head, weighings) = (sheet.rows.iter().enumerate())
+        .find_map(|(row, cells)| Some((row, weighings_of_members(cells)?)))?;
+    let header = &sheet.rows[head];
+    let is_weighing = |at: &usize| weighings.iter().any(|(column, ..)| column == at);
+    let others: Vec<usize> = (0..header.len()).filter(|at| !is_weighing(at)).collect();
+    let of = |member: Subject| {
+        weighings
+            .iter()
+            .filter(move |weighing| weighing.1 == member)
+    };
+    let names = |member: Subject| of(member).map(|weighing| &weighing.2);
+    if !names(Subject::Pinion).eq(names(Subject::Gear)) {
+        return None;
+    }
+    let cell = |cells: &[String], at: usize| cells.get(at).cloned().unwrap_or_default();
+    let row = |cells: &[String], member: &str, values: Vec<String>| -> Vec<String> {
+        let whose = others.iter().map(|&at| cell(cells, at));
+        whose.chain([member.to_owned()]).chain(values).collect()
+    };
+    let mut rows = sheet.rows[..head].to_vec();
+    rows.push(row(
+        header,
+        "member",
+        names(Subject::Pinion).cloned().collect(),
+    ));
+    let filled = |cells: &&Vec<String>| cells.iter().any(|cell| !cell.is_empty());
+    for cells in sheet.rows[head + 1..].iter().filter(filled) {
+        for member in [Subject::Pinion, Subject::Gear] {
+            let values = of(member).map(|(at, ..)| cell(cells, *at)).collect();
+            rows.push(row(cells, member.name(), values));
+        }
+    }
+    Some(Sheet {
+        rows,
+        ..sheet.clone()
+    })
+}
+
+/// The columns of a header that name a member and its mass, each with the name of the weighing without that of the member; none where there are none of both.
+fn weighings_of_members(cells: &[String]) -> Option<Vec<(usize, Subject, String)>> {
+    let of_mass = |unit: &str| units::factor(unit, Quantity::MassLoss).is_ok();
+    let all = cells.iter().enumerate().filter_map(|(at, header)| {
+        let (name, unit) = units::name_and_unit(header);
+        let unit = unit.filter(|unit| of_mass(unit))?;
+        let member = names::one_member(&name)?;
+        let words = name.split_whitespace();
+        let rest: Vec<&str> = words.filter(|word| names::member(word).is_none()).collect();
+        let rest = rest.join(" ");
+        let is_new = NEW.contains(&names::folded(&rest).as_str());
+        let count = count_and_rest(&rest).filter(|(_, words)| words.is_empty());
+        let name = match count {
+            _ if is_new => "mass new".to_owned(),
+            // no part of a revolution is counted
+            Some((count, _)) if in_thousands(&count) => {
+                format!("mass after {} cycles", count.replace(['.', ','], ""))
+            }
+            Some((count, _)) => format!("mass after {count} cycles"),
+            None => rest,
+        };
+        let name = format!("{name} [{unit}]");
+        weighing(&name).map(|_| (at, member, name))
+    });
+    let all: Vec<(usize, Subject, String)> = all.collect();
+    let has = |member: Subject| all.iter().any(|weighing| weighing.1 == member);
+    (has(Subject::Pinion) && has(Subject::Gear)).then_some(all)
 }
 
 /// The columns of the weighings of a header with the cycles of each and its unit; none where there are not several, the first of the new part.
@@ -92,6 +169,17 @@ mod tests {
             ["T1", "Ritzel", "100000", "612.4312", "612.3758"]
         );
         assert_eq!(long.rows.len(), 4);
+        let side_by_side = Sheet::of_rows(&[
+            "Versuch|Ritzel m0 [g]|Ritzel 60.000 LW [g]|Ritzel 300.000 LW [g]|Rad m0 [g]|Rad 60.000 LW [g]|Rad 300.000 LW [g]",
+            "T1|612.4312|612.4097|612.3758|1893.1177|1893.0954|1893.0700",
+        ]);
+        let long = weighings_across(&side_by_side).unwrap();
+        assert_eq!(long.rows[0][1..3], ["member", "cycles"]);
+        assert_eq!(
+            long.rows[4],
+            ["T1", "gear", "300000", "1893.1177", "1893.0700"]
+        );
+        assert_eq!(long.rows.len(), 5);
         // two weighings alone are columns of their own; nothing of the new part; no member
         for other in [
             "Test|Member|Mass before [g]|Mass after [g]",

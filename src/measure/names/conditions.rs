@@ -3,12 +3,12 @@
 use super::counting::{
     HOURS, MODULES, NEWTON_METRES, NUMBERS_OF_TEETH, PER_MINUTE, SPEEDS, TIMES, TORQUES,
 };
-use super::{folded, is_filler, member, one_member, revolutions, telling, words};
+use super::{counted, folded, is_filler, member, one_member, revolutions, telling, words};
 use crate::measure::quantity::Subject;
 
 /// Hours of a unit of the running time that a name and its unit mean; none if they mean no time.
 pub(in crate::measure) fn hours(name: &str, unit: Option<&str>) -> Option<f64> {
-    let name = telling(name).concat();
+    let name = counted(name).concat();
     let of = |unit: &str| HOURS.iter().find(|(known, _)| *known == unit);
     let found = match unit {
         Some(unit) if TIMES.contains(&name.as_str()) => of(&folded(unit)),

@@ -24,6 +24,7 @@ pub(super) const CYCLES: &[&str] = &[
     "umdr",
     "umdrehungen",
     "zyklen",
+    "ciclo",
     "cicli",
     "ciclicarico",
     "giri",

@@ -366,6 +366,44 @@ pub(super) const AFTER: [&str; 23] = [
     "fin",
 ];
 
+/// Words that say that a value adds up from the start, as all values of a measurement file do.
+pub(super) const CUMULATIVE: [&str; 22] = [
+    "cumulative",
+    "cumulated",
+    "accumulated",
+    "kumuliert",
+    "kumulierte",
+    "kumulierter",
+    "kumulativ",
+    "aufsummiert",
+    "cumulato",
+    "cumulata",
+    "cumulati",
+    "cumulativo",
+    "cumulativa",
+    "cumule",
+    "cumulee",
+    "cumules",
+    "cumulees",
+    "acumulado",
+    "acumulada",
+    "acumulados",
+    "acumuladas",
+    "accumulati",
+];
+
+/// The same of counts and running times, beside which they may be sums of rows elsewhere.
+pub(super) const TOTAL_COUNTS: [&str; 8] = [
+    "total",
+    "gesamt",
+    "totale",
+    "totali",
+    "totaux",
+    "totales",
+    "insgesamt",
+    "complessivi",
+];
+
 /// Words that say nothing in a name.
 pub(super) const FILLERS: [&str; 33] = [
     "nb", "nbre", "of", "the", "a", "an", "after", "no", "nr", "number", "id", "name", "der",

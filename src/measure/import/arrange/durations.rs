@@ -15,8 +15,9 @@ const OF_EACH: [&str; 9] = [
     "per", "each", "during", "je", "pro", "ogni", "par", "chaque", "por",
 ];
 /// Words that stand between.
-const BETWEEN: [&str; 11] = [
-    "in", "the", "im", "der", "dem", "nel", "nell", "nella", "dans", "la", "en",
+const BETWEEN: [&str; 16] = [
+    "in", "the", "im", "der", "dem", "nel", "nell", "nella", "dans", "la", "en", "pendant",
+    "durante", "within", "wahrend", "le",
 ];
 
 /// The sheet with the names of totals in place of those of intervals in its header, and the names that were changed, old and new. As it is where

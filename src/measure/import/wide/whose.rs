@@ -29,15 +29,16 @@ pub(super) fn of(
     wanted: &Wanted<'_>,
 ) -> Result<Whose> {
     let stated = wanted.stated_member(sheet, quantity)?;
+    let title = of_title(sheet, head, quantity);
     if let Some(member) = stated.or_else(|| of_corner(grid.corner())) {
+        let other = title.as_ref().filter(|title| title.member != member);
         return Ok(Whose {
             member,
             is_said: true,
-            said: None,
-            title: None,
+            said: other.map(|title| title.passed_over(member)),
+            title: other.map(|title| title.written.clone()),
         });
     }
-    let title = of_title(sheet, head, quantity);
     let member = title.as_ref().map_or(Subject::Pinion, |title| title.member);
     let orientation = |member: Subject| {
         let places = Places::of((quantity, member), wanted, grid.corner())?;
@@ -108,9 +109,19 @@ impl Title {
             self.member.name()
         )
     }
+
+    /// Where the header or the user says that it is `member`.
+    fn passed_over(&self, member: Subject) -> String {
+        format!(
+            "taken for the {}'s as stated, though row {} says `{}`",
+            member.name(),
+            self.row + 1,
+            self.written
+        )
+    }
 }
 
-/// The row that names a quantity and one member, where no other such row names the other: `Verschleiß Rad [µm]`.
+/// The row that names a quantity and one member, or nothing but a member, where no other such row names the other: `Verschleiß Rad [µm]`, `Rad`.
 fn of_title(sheet: &Sheet, head: usize, quantity: Quantity) -> Option<Title> {
     let rows = sheet.rows.iter().enumerate().take(head);
     let titles: Vec<Title> = rows
@@ -139,11 +150,12 @@ fn named_in(title: &str, quantity: Quantity) -> Option<Subject> {
         || names::speaks_of_deviation(title);
     // whose revolutions are counted is another matter
     let counts = says(&|word| names::revolutions(word).is_some());
+    let is_all = names::member(title.trim_matches([' ', ':'])).is_some();
     // any pair has `gear wear`, and `Rad 1` is the pinion
     let is_plain =
         says(&|word| word != "gear" && names::member(word).is_some()) && !says(&|word| word == "1");
     let member = names::one_member(title).filter(|member| member.member().is_some());
-    member.filter(|_| names_values && is_plain && !counts)
+    member.filter(|_| is_all || names_values && is_plain && !counts)
 }
 
 #[cfg(test)]
@@ -162,6 +174,9 @@ mod tests {
             ("Usura pignone", Some(Subject::Pinion)),
             ("Verschlei\u{df} Ritzel und Rad", None),
             ("Verschlei\u{df} nach Umdrehungen Rad", None),
+            ("Corona", Some(Subject::Gear)),
+            ("Gear:", Some(Subject::Gear)),
+            ("Pinion and gear", None),
             ("Gear wear, run A", None),
             ("Verschlei\u{df} Rad 1", None),
             ("Zeichnung Rad 4711", None),
