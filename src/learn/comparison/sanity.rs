@@ -31,6 +31,7 @@ mod moved_places;
 mod moved_rotation;
 mod negated;
 mod no_wear;
+mod odd_weighings;
 mod one_series;
 mod other_units;
 mod reversed;
@@ -88,6 +89,9 @@ pub(super) fn sanity_of_data(study: &Study, data: &Dataset) -> Vec<String> {
     let slips = decimal_slips::decimal_slips(study, data);
     if !slips.is_empty() {
         return slips;
+    }
+    if let Some(odd) = odd_weighings::odd_weighing(study, data) {
+        return vec![odd];
     }
     let mut said = falling_shapes::falling_shapes(study, data);
     said.extend(single_tests::short_of_their_cycles(study, data));

@@ -72,7 +72,11 @@ mod tests {
 
     /// What is said where the second test wears so many times as much as the first.
     fn said(level: f64, factors: [[f64; 2]; 3]) -> Option<String> {
-        said_of(exchanged_curves, [1.0, level, 1.5], factors)
+        said_of(
+            exchanged_curves,
+            [1.0, level, 1.5].map(|level| [level; 2]),
+            factors,
+        )
     }
 
     #[test]

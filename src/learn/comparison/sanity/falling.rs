@@ -17,6 +17,9 @@ use crate::study::Study;
 const SURE: f64 = 6.0;
 /// How far it must go where the model's shape stands for that of the curves.
 const FALLS_TO: f64 = 0.8;
+/// The same of masses, which no shape of the model stands behind, and how far they must fall then.
+const SURE_OF_MASS: f64 = 4.5;
+const MASS_FALLS_SURELY_TO: f64 = 0.9;
 /// Share to which a mass falls, and share of the largest one that it has been, from which it is asked about where sigmas are estimated: a wrong mass
 /// has made its own sigma large.
 const MASS_FALLS_TO: f64 = 0.75;
@@ -65,7 +68,11 @@ pub(super) fn falling(study: &Study, data: &Dataset, rows: &[FittedRow<'_>]) -> 
             let estimated = quantity == Quantity::MassLoss && data.estimates_sigmas();
             let falls = |worn: &Vec<Worn>| {
                 let plainly = || falling_mass(worn).filter(|_| estimated);
-                fall(worn, FALLS_TO).or_else(plainly)
+                let surely = match quantity {
+                    Quantity::MassLoss => fall_of(worn, SURE_OF_MASS, MASS_FALLS_SURELY_TO),
+                    _ => fall(worn, FALLS_TO),
+                };
+                surely.or_else(plainly)
             };
             let Some(fall) = series.iter().find_map(falls) else {
                 continue;
@@ -95,7 +102,7 @@ impl Fall {
                 "{of} has all but gone after {to} cycles beside what it is after {from}: was another flank, another tooth or a new part measured then?"
             ),
             None => format!(
-                "{of} is less after {to} cycles than after {from}: wear does not fall. Are the cycles of two checkpoints exchanged, is a decimal point wrong in the cycles or values of one, or is this what was lost since the measurement before (gearwear import --per-interval)?"
+                "{of} is less after {to} cycles than after {from}: wear does not fall. Are the cycles of two checkpoints exchanged, is a decimal point wrong in the cycles or values of one, does one belong to another test, or is this what was lost since the measurement before (gearwear import --per-interval)?"
             ),
             Some(OtherUnit::LaterInLarger) => format!(
                 "{of} is about a thousand times less after {to} cycles than after {from}: was that checkpoint written in {larger}?"
@@ -109,9 +116,14 @@ impl Fall {
 
 /// The first two checkpoints between which wear falls below this share of what it was.
 pub(super) fn fall(worn: &[Worn], share: f64) -> Option<Fall> {
+    fall_of(worn, SURE, share)
+}
+
+/// The same, by so many standard deviations.
+fn fall_of(worn: &[Worn], sure: f64, share: f64) -> Option<Fall> {
     worn.windows(2).enumerate().find_map(|(place, pair)| {
         let [before, after] = [&pair[0], &pair[1]];
-        let far = before.amount - after.amount > SURE * before.sigma.hypot(after.sigma);
+        let far = before.amount - after.amount > sure * before.sigma.hypot(after.sigma);
         // traces of one checkpoint are no fall
         let far = far && before.cycles < after.cycles;
         (far && after.amount < share * before.amount).then(|| Fall {
@@ -243,6 +255,25 @@ mod tests {
         assert_eq!(masses(&[50.0, 89.0, 131.0, 120.0]), None);
         // small ones scatter
         assert_eq!(masses(&[9.0, 4.0, 131.0, 179.0]), None);
+    }
+
+    /// The weighing after 675 000 cycles is another test's: 4.7 standard deviations below the one before it.
+    #[test]
+    fn masses_that_fall_surely_are_found() {
+        let falls = |masses: [[f64; 2]; 3]| {
+            let worn = masses.iter().enumerate().map(|(i, &[amount, sigma])| Worn {
+                cycles: 2.25e5 * (i + 2) as f64,
+                amount,
+                sigma,
+                largest: amount,
+            });
+            let worn: Vec<Worn> = worn.collect();
+            fall_of(&worn, SURE_OF_MASS, MASS_FALLS_SURELY_TO).map(|fall| [fall.from, fall.to])
+        };
+        let [before, after] = [[56.95, 1.73], [96.6, 2.51]];
+        assert_eq!(falls([before, [46.26, 1.49], after]), Some([4.5e5, 6.75e5]));
+        assert_eq!(falls([before, [50.0, 1.49], after]), None);
+        assert_eq!(falls([before, [54.0, 0.01], after]), None);
     }
 
     #[test]

@@ -7,6 +7,8 @@
 //! ```
 //! Wear that speeds up or slows down against the model's cancels in r, whatever weight each quantity's sigmas give to early and late measurements.
 
+use std::collections::BTreeSet;
+
 use super::super::residual_statistics::FittedRow;
 use super::{EXPLAINS, SAME_CYCLES, scale};
 use crate::measure::{Observation, Quantity, Subject};
@@ -19,8 +21,9 @@ const TRACE: f64 = 10.0;
 /// Fewest moments that tell increments, and the part of the range of r that sums may leave.
 const SEVERAL: usize = 3;
 const LEFT: f64 = 1.0 / 3.0;
-/// Factor by which what counts from the start grows from one measurement to the next, where it wears at all.
+/// Factor by which what counts from the start grows from one measurement to the next, where it wears at all; or such a power of what it grows by the model.
 const GROWS: f64 = 1.1;
+const OF_MODEL: f64 = 0.25;
 /// How far from the other quantity the sums may be, in ln.
 const NEAR: f64 = 0.4;
 
@@ -50,16 +53,20 @@ pub(super) fn increments(study: &Study, rows: &[FittedRow<'_>]) -> Vec<String> {
         let own = rows.iter().filter(|(o, _)| o.test == test);
         let own: Vec<FittedRow<'_>> = own.copied().collect();
         let members = [Subject::Pinion, Subject::Gear].into_iter();
-        let weighings = |member| {
-            let lost = |o: &Observation| o.quantity == Quantity::MassLoss && o.cycles > 0.0;
-            let all = own.iter().filter(|(o, _)| o.member == member && lost(o));
-            all.count()
-        };
-        // sums need every one
+        // sums need every one of the quantity that is added up
         let of_member = |member| {
             let moments = moments(&own, member);
-            let found = Increments::among(&moments);
-            found.filter(|_| moments.len() == weighings(member))
+            let found = Increments::among(&moments)?;
+            let quantity = match found {
+                Increments::Masses => Quantity::MassLoss,
+                Increments::Depths => Quantity::WearDepth,
+            };
+            let measured = |o: &Observation| (o.member, o.quantity) == (member, quantity);
+            let times: BTreeSet<u64> = (own.iter())
+                .filter(|(o, _)| measured(o) && o.cycles > 0.0)
+                .map(|(o, _)| o.cycles.to_bits())
+                .collect();
+            (moments.len() == times.len()).then_some(found)
         };
         let found = members.filter_map(of_member).next()?;
         Some((study.tests[test].id.as_str(), found))
@@ -127,7 +134,10 @@ impl Increments {
             Self::Masses => moment.mass,
             Self::Depths => moment.scale * moment.largest,
         };
-        let is_no_sum = |two: &[Moment]| measured(&two[1]) < GROWS * measured(&two[0]);
+        let is_no_sum = |two: &[Moment]| {
+            let by_model = (two[1].largest / two[0].largest).powf(OF_MODEL);
+            measured(&two[1]) < by_model.max(GROWS) * measured(&two[0])
+        };
         let found = plain > 2f64.ln() && left < LEFT * plain;
         (found && moments.windows(2).any(is_no_sum)).then_some(kind)
     }
@@ -198,6 +208,11 @@ mod tests {
         );
         assert_eq!(
             found(sums, [1.0, 0.5, 1.0 / 3.0, 0.25]),
+            Some(Increments::Depths)
+        );
+        // the second depth is an eighth more than the first, where the model doubles
+        assert_eq!(
+            found(sums, [1.0, 0.56, 0.42, 0.36]),
             Some(Increments::Depths)
         );
         // roughness that is worn off the whole flank at once
