@@ -5,6 +5,7 @@ mod fourth_differences;
 pub(in crate::learn) mod goodness_of_fit;
 pub(in crate::learn) mod identifiability;
 pub(in crate::learn) mod noise_level;
+pub(in crate::learn) mod one_part;
 pub(in crate::learn) mod outlying_curves;
 mod scatter_of_tests;
 pub(in crate::learn) mod scatter_trend;

@@ -17,9 +17,6 @@ const CURVES: usize = 6;
 /// χ² that an offset and a tilt of its own must explain of one curve, and how often what they explain of any other.
 const OWN: f64 = 30.0;
 const OFTEN: f64 = 3.0;
-/// χ² per point of a test that is off by itself, and up to which the others are near their noise.
-const OFF: f64 = 2.5;
-const NEAR_NOISE: f64 = 1.6;
 /// A tilt of which less than this share is left beside the shift is rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -74,30 +71,6 @@ pub(in crate::learn) fn suspects(likelihood: &Likelihood<'_>, model: &[f64]) -> 
         );
     }
     found
-}
-
-/// The test that carries nearly all that the base model leaves, where the others are near their noise: its conditions may not be those that are stated.
-pub(in crate::learn) fn one_test(likelihood: &Likelihood<'_>, model: &[f64]) -> Option<String> {
-    let mut tests: BTreeMap<usize, (f64, f64)> = BTreeMap::new();
-    for (row, z) in likelihood.standardised(model).into_iter().enumerate() {
-        let (square, count) = tests.entry(likelihood.observation(row).test).or_default();
-        *square += z * z;
-        *count += 1.0;
-    }
-    let mut by_misfit: Vec<(f64, usize)> = (tests.iter())
-        .map(|(&test, &(square, count))| (square / count, test))
-        .collect();
-    by_misfit.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let [(worst, test), (next, _), .., (least, _)] = by_misfit[..] else {
-        return None;
-    };
-    (worst > OFF && next < NEAR_NOISE).then(|| {
-        format!(
-            "nearly all of the misfit is that of test {} (χ² {worst:.1} per point, of the others {least:.1} to {next:.1}): an effect may act under its conditions \
-             only, but check first that its torque, speed, misalignment and the positions of its rows are those of the test",
-            likelihood.measured.data.tests[test]
-        )
-    })
 }
 
 /// The curve that departs by itself from `model`: shifted or tilted, as no law of wear would one alone.

@@ -10,6 +10,7 @@ use super::wording::{
 use crate::learn::candidates::fitted_candidate::FittedCandidate;
 use crate::learn::decision::Verdict;
 use crate::learn::discrepancy::dependence::{self, Driver};
+use crate::learn::experiment::next::NextExperiment;
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
 
 /// What remains once the established effect is in.
@@ -95,8 +96,8 @@ fn has_ended(findings: &Findings<'_>, fitted: &FittedCandidate) -> bool {
     fitted.converged || chi2(findings, fitted) < before(findings)
 }
 
-/// The verdict `partial` in words.
-pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
+/// The verdict `partial` in words, with the proposed test.
+pub(super) fn partial(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Explanation {
     let posterior = findings.posterior;
     let group = established(findings);
     // the hypothesis that is established has the rest beside it: alone the effect would take a part of that too
@@ -181,10 +182,16 @@ pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
                 |fit| added(&fit.candidate)
             )
         ),
-        _ => format!(
-            "make the proposed test, or {}, as gearwear climb STUDY does; then diagnose the new study",
-            add_each(findings)
-        ),
+        _ => {
+            let test = match next {
+                Some(_) => "make the proposed test",
+                None => "make a test that tells them apart (gearwear plan STUDY ranks some)",
+            };
+            format!(
+                "{test}, or {}, as gearwear climb STUDY does; then diagnose the new study",
+                add_each(findings)
+            )
+        }
     };
     Explanation {
         sentence,

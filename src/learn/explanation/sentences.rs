@@ -8,6 +8,7 @@ use super::remainder::partial;
 use super::rivals::ambiguous;
 use super::undecided::{not_decided, undecided};
 use super::unknown::unknown;
+use super::warnings::odd_part;
 use super::wording::{Explanation, percent};
 use crate::learn::checks::scatter_trend::trend_of_scatter;
 use crate::learn::decision::Verdict;
@@ -28,10 +29,19 @@ impl Explanation {
             _ if undecided => not_decided(findings),
             (Verdict::Effect | Verdict::Effects, Some(leader)) => named(findings, leader),
             (Verdict::Ambiguous, _) => ambiguous(findings, next),
-            (Verdict::Partial, _) => partial(findings),
+            (Verdict::Partial, _) => partial(findings, next),
             (Verdict::Unknown, _) => unknown(findings),
             _ => nothing_missing(findings, next),
         };
+        let likelihood = &findings.context.likelihood;
+        if decision.verdict != Verdict::NothingMissing
+            && let Some(odd) = odd_part(likelihood, findings.base, findings.posterior)
+        {
+            all.next_step = format!(
+                "{}; if nothing is wrong there, {}",
+                odd.first, all.next_step
+            );
+        }
         all.reasons.extend(laws_instead::instead(findings));
         if let Some(driver) = driver {
             let is_explained = matches!(decision.verdict, Verdict::Effect | Verdict::Effects);

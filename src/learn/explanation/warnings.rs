@@ -6,6 +6,7 @@ use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::checks::common_scatter;
 use crate::learn::checks::noise_level;
+use crate::learn::checks::one_part::{OddPart, one_part};
 use crate::learn::checks::outlying_curves;
 use crate::learn::checks::sufficiency::{few, measured_once, unknowns};
 use crate::learn::decision::judged_candidates::JudgedCandidates;
@@ -157,23 +158,32 @@ fn of_scarcity(likelihood: &Likelihood<'_>, base: &BaseFit) -> Vec<String> {
     warnings
 }
 
-/// Curves that are far from the others, or a test that carries the misfit.
+/// The part of the measurements that carries the misfit, where no effect is named and no single curve is far from the others.
+pub(super) fn odd_part(
+    likelihood: &Likelihood<'_>,
+    base: &BaseFit,
+    posterior: &JudgedCandidates,
+) -> Option<OddPart> {
+    let model = &base.fitted.found.model;
+    let is_named = matches!(
+        posterior.decision.verdict,
+        Verdict::Effect | Verdict::Effects
+    );
+    if is_named || !outlying_curves::suspects(likelihood, model).is_empty() {
+        return None;
+    }
+    one_part(likelihood, model)
+}
+
+/// Curves that are far from the others, or a test or a quantity that carries the misfit.
 fn of_curves(
     likelihood: &Likelihood<'_>,
     base: &BaseFit,
     posterior: &JudgedCandidates,
 ) -> Vec<String> {
     let suspects = outlying_curves::suspects(likelihood, &base.fitted.found.model);
-    let model = &base.fitted.found.model;
-    let is_named = matches!(
-        posterior.decision.verdict,
-        Verdict::Effect | Verdict::Effects
-    );
-    let one_test = (suspects.is_empty() && !is_named)
-        .then(|| outlying_curves::one_test(likelihood, model))
-        .flatten();
-    if let Some(one_test) = one_test {
-        vec![one_test]
+    if let Some(part) = odd_part(likelihood, base, posterior) {
+        vec![part.warning]
     } else if suspects.is_empty() {
         // what a fit that has not come to its end leaves speaks of the fit
         let leader = posterior.leader().filter(|leader| leader.converged);
