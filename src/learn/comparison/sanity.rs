@@ -17,6 +17,7 @@ mod depths_and_masses;
 mod exchanged_curves;
 mod exchanged_depths;
 mod exchanged_masses;
+mod exchanged_shapes;
 mod exchanged_tests;
 mod falling;
 mod falling_shapes;
@@ -135,7 +136,8 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         // exchanged masses are at odds with the depths of both members
         said.extend(exchanged_masses::exchanged_masses(study, &rows));
         if said.is_empty() {
-            said.extend(exchanged_depths::exchanged_depths(study, &rows));
+            let by_shape = || exchanged_shapes::exchanged_shapes(study, &rows);
+            said.extend(exchanged_depths::exchanged_depths(study, &rows).or_else(by_shape));
             said.extend(exchanged_curves::exchanged_curves(study, &rows));
         }
         if said.is_empty() {
