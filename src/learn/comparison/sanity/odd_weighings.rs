@@ -186,6 +186,28 @@ mod tests {
         }
     }
 
+    /// Leverages add up to the number of parameters, and what a mass lies off the others' growth is its residual over 1 less its leverage (Cook & Weisberg,
+    /// Residuals and Influence in Regression, 1982, ch. 2).
+    #[test]
+    fn leverages_are_those_of_least_squares() {
+        for own in series() {
+            let all = growth(&own).unwrap();
+            let sum: f64 = own.iter().map(|[cycles, _]| all.leverage(*cycles)).sum();
+            assert!((sum - 2.0).abs() < 1e-9, "{sum}");
+            for at in 0..own.len() {
+                let mut others = own.clone();
+                let [cycles, mass] = others.remove(at);
+                let left_out = mass - growth(&others).unwrap().at(cycles);
+                let residual = mass - all.at(cycles);
+                let free = 1.0 - all.leverage(cycles);
+                assert!(
+                    (left_out - residual / free).abs() < 1e-6,
+                    "{left_out} {residual}"
+                );
+            }
+        }
+    }
+
     #[test]
     fn a_law_that_bends_in_all_series_is_no_slip() {
         let run_in = |own: &Series| -> Series {
