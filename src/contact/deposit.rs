@@ -45,29 +45,26 @@ impl Travel {
 /// farther positions lie apart.
 pub fn deposit(xi: &[f64], arc: &[f64], stations: &[f64], travel: Travel) -> SparseRows {
     let times = instants(travel, stations);
-    let last = xi.len() - 1;
     let spacing = spacing(stations);
-    let mut row = Accumulator::new(stations);
+    let mut rows = Accumulator::new(stations);
     SparseRows::from_rows((0..xi.len()).map(|k| {
-        for (from, to) in [(k.saturating_sub(1), k), (k, (k + 1).min(last))] {
-            if from == to {
-                continue;
-            }
+        // the interval after node k bears half of the hat there, and half of the next one
+        if k + 1 < xi.len() {
+            let length = arc[k + 1] - arc[k];
             // an interval longer than the stations' spacing is divided, or it would be felt at four of them only
-            let pieces = ((arc[to] - arc[from]).abs() / spacing).round().max(1.0);
+            let pieces = (length.abs() / spacing).round().max(1.0);
             for piece in 0..pieces as usize {
                 for (u, weight) in GAUSS {
                     let u = (piece as f64 + u) / pieces;
-                    let hat = if to == k { u } else { 1.0 - u };
-                    let s = arc[from] + u * (arc[to] - arc[from]);
-                    let amount = hat * weight / pieces * (xi[to] - xi[from]);
+                    let area = weight / pieces * (xi[k + 1] - xi[k]);
                     for &(shift, slide) in &times {
-                        row.add(s + shift, amount * slide);
+                        let at = arc[k] + u * length + shift;
+                        rows.add(at, [1.0 - u, u].map(|hat| hat * area * slide));
                     }
                 }
             }
         }
-        row.take()
+        rows.take()
     }))
 }
 
@@ -108,15 +105,19 @@ fn spacing(stations: &[f64]) -> f64 {
     (stations[stations.len() - 1] - stations[0]) / (stations.len() - 1) as f64
 }
 
-/// Sums contributions to neighbouring stations.
+/// Sums contributions to neighbouring stations, for one row and for the next.
 struct Accumulator<'s> {
     stations: &'s [f64],
     /// Stations per length, 1/mm, as if they lay evenly.
     density: f64,
     /// The inverse of each station's [`tributary`], 1/mm.
     per_length: Vec<f64>,
-    sums: Vec<f64>,
-    /// First and one past the last station that has been added to.
+    sums: [Sums; 2],
+}
+
+/// What has been added up at each station, and the first and one past the last station that has been added to.
+struct Sums {
+    areas: Vec<f64>,
     touched: (usize, usize),
 }
 
@@ -128,12 +129,15 @@ impl<'s> Accumulator<'s> {
             stations,
             density: last as f64 / (stations[last] - stations[0]),
             per_length: (0..=last).map(inverse).collect(),
-            sums: vec![0.0; stations.len()],
-            touched: (stations.len(), 0),
+            sums: [0, 1].map(|_| Sums {
+                areas: vec![0.0; stations.len()],
+                touched: (stations.len(), 0),
+            }),
         }
     }
 
-    fn add(&mut self, s: f64, area: f64) {
+    /// Adds an area of this row and one of the next at the place `s`.
+    fn add(&mut self, s: f64, areas: [f64; 2]) {
         let stations = self.stations;
         let last = stations.len() - 1;
         let ends = [stations[0], stations[last]];
@@ -142,13 +146,11 @@ impl<'s> Accumulator<'s> {
         let s = (s - 2.0 * beyond).clamp(ends[0], ends[1]);
         let next = self.after(s).clamp(1, last);
         let t = (s - stations[next - 1]) / (stations[next] - stations[next - 1]);
-        self.put(next - 1, (1.0 - t) * area);
-        self.put(next, t * area);
-    }
-
-    fn put(&mut self, station: usize, area: f64) {
-        self.sums[station] += area;
-        self.touched = (self.touched.0.min(station), self.touched.1.max(station + 1));
+        for (sums, area) in self.sums.iter_mut().zip(areas) {
+            sums.areas[next - 1] += (1.0 - t) * area;
+            sums.areas[next] += t * area;
+            sums.touched = (sums.touched.0.min(next - 1), sums.touched.1.max(next + 1));
+        }
     }
 
     /// Number of stations up to `s`; they lie about evenly, so it is looked for near where it would then be.
@@ -165,14 +167,13 @@ impl<'s> Accumulator<'s> {
         next
     }
 
-    /// The sums since the last call.
+    /// The sums of this row; the next one becomes this one.
     fn take(&mut self) -> Vec<(u32, f64)> {
-        let (from, to) = std::mem::replace(&mut self.touched, (self.sums.len(), 0));
+        self.sums.swap(0, 1);
+        let [_, Sums { areas, touched }] = &mut self.sums;
+        let (from, to) = std::mem::replace(touched, (areas.len(), 0));
         (from..to)
-            .map(|i| {
-                let area = std::mem::take(&mut self.sums[i]);
-                (i as u32, area * self.per_length[i])
-            })
+            .map(|i| (i as u32, std::mem::take(&mut areas[i]) * self.per_length[i]))
             .collect()
     }
 }

@@ -47,9 +47,21 @@ pub fn median(mut values: Vec<f64>) -> Option<f64> {
     Some(*median)
 }
 
+/// How many of the ascending `x` are not above `at`. Most grids are nearly even: where it would lie on an even one is looked at first.
+pub fn passed(x: &[f64], at: f64) -> usize {
+    if let [first, .., last] = x {
+        let share = (at - first) / (last - first) * (x.len() - 1) as f64;
+        let guess = share.clamp(0.0, (x.len() - 2) as f64) as usize;
+        if x[guess] <= at && at < x[guess + 1] {
+            return guess + 1;
+        }
+    }
+    x.partition_point(|&v| v <= at)
+}
+
 /// Piecewise linear interpolation of `y` over ascending `x`, constant beyond the ends.
 pub fn interpolate(x: &[f64], y: &[f64], at: f64) -> f64 {
-    let next = x.partition_point(|&v| v <= at);
+    let next = passed(x, at);
     if next == 0 {
         return y[0];
     }

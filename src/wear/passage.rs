@@ -97,31 +97,31 @@ impl Passage {
         let views: Vec<View> = (0..self.order.len())
             .map(|m| self.view(cycle, contacts, side, m))
             .collect();
-        for (m, window) in views.windows(2).enumerate() {
-            let [from, to] = window else { continue };
-            if from.is_empty() && to.is_empty() {
-                continue;
+        let instants: Vec<Instant> = (0..views.len().saturating_sub(1))
+            .flat_map(|m| (0..INSTANTS).map(move |n| (m, n as f64 / INSTANTS as f64)))
+            .filter_map(|(m, t)| Instant::between(&views[m..m + 2], m, t))
+            .collect();
+        // what a point sees when the middle of the contact passes it is nearly the largest: most other instants need no look
+        let mut at_least = vec![0.0_f64; stations.len()];
+        for instant in &instants {
+            let near = 0.5 * instant.advance;
+            for i in instant.stations(stations, [-near, near]) {
+                at_least[i] = at_least[i].max(instant.pressure(stations[i]));
             }
-            for instant in 0..INSTANTS {
-                let t = instant as f64 / INSTANTS as f64;
-                let centre = (1.0 - t) * from.centre + t * to.centre;
-                let reach = [from, to].map(|v| v.loaded).into_iter().flatten();
-                let (low, high) =
-                    reach.fold((f64::MAX, f64::MIN), |(a, b), (l, h)| (a.min(l), b.max(h)));
-                let first = stations.partition_point(|&s| s < centre + low);
-                let last = stations.partition_point(|&s| s <= centre + high);
-                let most = (1.0 - t) * from.peak + t * to.peak;
-                for i in first..last {
-                    if most <= moments[i].pressure {
-                        continue;
-                    }
-                    let offset = stations[i] - centre;
-                    let pressure = (1.0 - t) * from.pressure(offset) + t * to.pressure(offset);
-                    if pressure > moments[i].pressure {
-                        moments[i].pressure = pressure;
-                        moments[i].pair = if t < 0.5 { m } else { m + 1 };
-                        moments[i].instant = Some((m, t));
-                    }
+        }
+        for instant in &instants {
+            for i in instant.stations(stations, instant.loaded) {
+                if instant.peak < at_least[i] || instant.peak <= moments[i].pressure {
+                    continue;
+                }
+                let pressure = instant.pressure(stations[i]);
+                if pressure > moments[i].pressure {
+                    let Instant { m, t, .. } = *instant;
+                    moments[i] = Moment {
+                        pressure,
+                        pair: if t < 0.5 { m } else { m + 1 },
+                        instant: Some((m, t)),
+                    };
                 }
             }
         }
@@ -188,6 +188,52 @@ impl Passage {
     }
 }
 
+/// An instant of the passage, a share `t` of the way from number `m` of it to the next.
+struct Instant<'v> {
+    m: usize,
+    t: f64,
+    views: [&'v View<'v>; 2],
+    /// Arc of the contact's middle, mm.
+    centre: f64,
+    /// How far that moves until the next instant, mm.
+    advance: f64,
+    /// Arc from the middle between which there is pressure, mm.
+    loaded: [f64; 2],
+    /// No pressure is larger, MPa.
+    peak: f64,
+}
+
+impl<'v> Instant<'v> {
+    /// None if nothing touches then.
+    fn between(views: &'v [View<'v>], m: usize, t: f64) -> Option<Self> {
+        let [from, to] = views else { return None };
+        let ends = [from, to].map(|view| view.loaded).into_iter().flatten();
+        let loaded = ends.reduce(|(a, b), (low, high)| (a.min(low), b.max(high)))?;
+        Some(Self {
+            m,
+            t,
+            views: [from, to],
+            centre: (1.0 - t) * from.centre + t * to.centre,
+            advance: (to.centre - from.centre).abs() / INSTANTS as f64,
+            loaded: loaded.into(),
+            peak: (1.0 - t) * from.peak + t * to.peak,
+        })
+    }
+
+    /// Those of the `stations` that lie so far from the middle.
+    fn stations(&self, stations: &[f64], [low, high]: [f64; 2]) -> std::ops::Range<usize> {
+        let first = stations.partition_point(|&s| s < self.centre + low);
+        first..stations.partition_point(|&s| s <= self.centre + high)
+    }
+
+    /// The pressure at the point at `arc`, MPa.
+    fn pressure(&self, arc: f64) -> f64 {
+        let offset = arc - self.centre;
+        let [from, to] = self.views;
+        (1.0 - self.t) * from.pressure(offset) + self.t * to.pressure(offset)
+    }
+}
+
 /// The pressure of one tooth pair over arc from its middle.
 struct View<'a> {
     position: u32,
@@ -248,10 +294,6 @@ impl<'a> View<'a> {
             Some(averages) => averages[k].iter().copied().map(unknown).collect(),
             None => vec![unknown((k, 1.0))],
         }
-    }
-
-    fn is_empty(&self) -> bool {
-        self.loaded.is_none()
     }
 
     /// The pressure at the point `offset` (mm of arc) from the middle, MPa.
