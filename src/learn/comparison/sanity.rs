@@ -27,6 +27,7 @@ mod gross_errors;
 mod increments;
 mod mass_balance;
 mod mass_over_depth;
+mod masses_without_wear;
 mod materials;
 mod moved_places;
 mod moved_rotation;
@@ -153,6 +154,10 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
                 found.into_iter().collect()
             };
             said.extend(of_tests.unwrap_or_else(of_all));
+            values_asked = !said.is_empty();
+        }
+        if said.is_empty() {
+            said.extend(masses_without_wear::masses_without_wear(study, &rows));
             values_asked = !said.is_empty();
         }
         if said.is_empty() {
