@@ -88,28 +88,38 @@ impl Attempt<'_> {
         Ok(first)
     }
 
-    /// The first fit or, where that has not settled or leaves more than noise, the one from the priors' medians if it attains more evidence: a cheaper
-    /// model may have led the first one into a valley of its own.
+    /// The first fit or, where that has not settled or leaves more than noise, the best by evidence of it and of those from the priors' medians and from
+    /// values that somebody has chosen: a cheaper model may have led the first one into a valley of its own.
     pub(super) fn best_of_starts(&self, first: Fit) -> Fit {
         let done = first.is_settled() && self.measured.misfit(&first).is_noise();
         if done || self.version.effects.is_empty() || self.attains_promise(&first) {
             return first;
         }
-        let attained = first.attained_evidence();
+        let chosen = Some(self.version.own_values()).filter(|_| self.version.is_chosen());
         let medians = self.version.medians();
-        if first.is_settled() && self.start.values == medians {
-            return first;
+        let mut best = first;
+        if !best.is_settled() || self.start.values != medians {
+            best = self.better_from(&medians, best);
         }
-        let second = if first.is_settled() || self.is_far(&first) {
-            (self.from(medians, &self.look_effort()).ok())
-                .filter(|second| second.attained_evidence() > attained)
-                .and_then(|second| self.go_on(&second).ok())
+        if let Some(chosen) = chosen.filter(|own| *own != medians && *own != self.start.values) {
+            best = self.better_from(&chosen, best);
+        }
+        best
+    }
+
+    /// The fit from `start` if it attains more evidence than the `best` yet; where that one has settled, or is far from the measurements, only
+    /// if it does so after a look.
+    fn better_from(&self, start: &[f64], best: Fit) -> Fit {
+        let attained = best.attained_evidence();
+        let next = if best.is_settled() || self.is_far(&best) {
+            (self.from(start.to_vec(), &self.look_effort()).ok())
+                .filter(|next| next.attained_evidence() > attained)
+                .and_then(|next| self.go_on(&next).ok())
         } else {
-            self.from(medians, self.effort).ok()
+            self.from(start.to_vec(), self.effort).ok()
         };
-        second
-            .filter(|second| second.attained_evidence() > attained + self.effort.tolerance)
-            .unwrap_or(first)
+        next.filter(|next| next.attained_evidence() > attained + self.effort.tolerance)
+            .unwrap_or(best)
     }
 
     /// Whether a fit that may be given up leaves far more than noise.
@@ -141,6 +151,82 @@ impl Attempt<'_> {
         Effort {
             iterations: LOOK_STEPS,
             ..*self.effort
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::learn::fitting::fit::Coefficient;
+    use crate::learn::hypothesis::parameters::Parameter;
+    use crate::learn::noise::NoiseModel;
+    use crate::learn::prediction::predictor::{PredictError, Predictor};
+    use crate::measure::Dataset;
+    use crate::study::{Role, Study};
+
+    /// A band of wear along the flank: 10 (1 + a exp(−((x − c)/w)²)) µm at radii from 25.6 to 28.8 mm.
+    struct Band;
+
+    const PLACES: usize = 80;
+
+    fn place(i: usize) -> f64 {
+        25.6 + 0.04 * i as f64
+    }
+
+    impl Predictor for Band {
+        fn predict(&self, _: usize, _: f64, theta: &[f64]) -> Result<Vec<f64>, PredictError> {
+            let at =
+                |i: usize| 1.0 + theta[0] * (-((place(i) - theta[1]) / theta[2]).powi(2)).exp();
+            Ok((0..PLACES).map(|i| 10.0 * at(i)).collect())
+        }
+    }
+
+    /// A cheaper model that sees no band begins where the data have none; neither that place nor the priors' medians lead to the narrow band, the
+    /// values that the study states do.
+    #[test]
+    fn stated_values_are_tried_where_a_cheaper_model_leads_astray() {
+        let text = include_str!("../../../../validation/challenges/none_L2/study.toml").to_owned()
+            + "[fit]\nfree = [\"band.more\", \"band.where\", \"band.width\"]\n\
+               [[effect]]\nkind = \"formula\"\nname = \"band\"\nwear_factor = \"1 + more*exp(-((radius-where)/width)^2)\"\n\
+               [effect.parameters]\nmore = { value = 0.5, lower = 0.0, upper = 5.0 }\n\
+               where = { value = 26.05, lower = 25.0, upper = 31.0 }\nwidth = { value = 0.2, lower = 0.03, upper = 1.0 }\n";
+        let study = Study::parse(&text, "study.toml").unwrap();
+        let mut table = "test,member,cycles,quantity,position,value,sigma\n".to_owned();
+        let truth = [0.9, 26.0, 0.12];
+        for (i, depth) in (Band.predict(0, 0.0, &truth).unwrap()).iter().enumerate() {
+            table += &format!("A,pinion,1e5,wear_depth,{},{depth},0.5\n", place(i));
+        }
+        let data = Dataset::parse(&table, "m.csv", &study.known()).unwrap();
+        let measured = Measured::new(&study, data.clone());
+        let version = ModelVersion::of(&study);
+        let parameters = (version.free_of_effects())
+            .map(|free| Parameter::uniform(&free.name, "-", free.value, free.lower, free.upper));
+        let roles = vec![Role::Fit; data.tests.len()];
+        let problem = Problem {
+            data: &data,
+            roles: &roles,
+            predictor: &Band,
+            coefficient: Coefficient::Fixed(1e-10),
+            parameters: parameters.collect(),
+            noise: NoiseModel::of(&study.noise),
+        };
+        let attempt = Attempt {
+            measured: &measured,
+            problem: &problem,
+            version: &version,
+            start: &Start::at(vec![0.0, 28.0, 0.5]),
+            missed: None,
+            effort: &Effort::for_simulations(),
+            dear: false,
+        };
+        let FirstFit::Hopeful(astray) = attempt.first(false).unwrap() else {
+            panic!("no fit is given up without a model to hold it against")
+        };
+        assert!(astray.parameters[0].value < 0.1, "{:?}", astray.parameters);
+        let best = attempt.best_of_starts(astray);
+        for (found, truth) in best.parameters.iter().zip(truth) {
+            assert!((found.value - truth).abs() < 0.02, "{:?}", best.parameters);
         }
     }
 }
