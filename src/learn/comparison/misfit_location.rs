@@ -157,6 +157,14 @@ fn either_sign(cell: &Cell) -> bool {
     cell.bias.abs() < 0.5 * cell.rms
 }
 
+/// Whether only the last of two errors is clear, and the one before it no smaller error of its kind: one that grows would show in both.
+fn stands_alone(before: &Cell, last: &Cell) -> bool {
+    clear(last) && !clear(before) && before.bias * last.bias.signum() < ON_ITS_WAY * last.bias.abs()
+}
+
+/// Part of the last error of a test that one before it has at least if errors grow.
+const ON_ITS_WAY: f64 = 0.2;
+
 /// Whether the error at that place grows, falls or changes sign over the test's intervals.
 fn trend(key: &CellKey, cells: &BTreeMap<CellKey, Cell>) -> String {
     let same = cells
@@ -169,6 +177,16 @@ fn trend(key: &CellKey, cells: &BTreeMap<CellKey, Cell>) -> String {
     let (first, last) = (over[0], over[over.len() - 1]);
     if either_sign(&cells[key]) || !(clear(first) || clear(last)) {
         return String::new();
+    }
+    if let [earlier @ .., before, last] = &over[..]
+        && !earlier.is_empty()
+        && stands_alone(before, last)
+        && !earlier.iter().any(|cell| clear(cell))
+    {
+        return format!(
+            "; before the last interval of the test the error there is within its noise ({} just before it)",
+            signed(before)
+        );
     }
     // of an end within its noise nobody knows the sign
     let word = if first.bias * last.bias < 0.0 {
@@ -418,6 +436,29 @@ mod tests {
             alike.ends_with("a shifted or tilted profile would make it"),
             "{alike}"
         );
+        // four within their noise, and one
+        let weighings = |errors: [f64; 4]| {
+            let of = |(i, bias): (usize, f64)| {
+                let cell = Cell {
+                    bias,
+                    bias_sigma: 4.8,
+                    rms: bias.abs(),
+                    ..cell(Quantity::MassLoss, 1, 20.0)
+                };
+                ((0, Subject::Pinion, Quantity::MassLoss, None, i), cell)
+            };
+            let cells: BTreeMap<CellKey, Cell> = errors.into_iter().enumerate().map(of).collect();
+            trend(&(0, Subject::Pinion, Quantity::MassLoss, None, 3), &cells)
+        };
+        let alone = weighings([0.4, 2.2, -11.4, 23.6]);
+        assert!(
+            alone.contains(
+                "before the last interval of the test the error there is within its noise (−11"
+            ),
+            "{alone}"
+        );
+        let growing = weighings([0.4, 5.2, 11.4, 23.6]);
+        assert!(growing.contains("grows over the test"), "{growing}");
         // one end within its noise
         assert!(told([-0.13, 0.15], [0.06, 0.01]).contains("grows out of its noise"));
         assert!(told([-0.15, 0.13], [0.01, 0.06]).contains("falls into its noise"));

@@ -25,6 +25,9 @@ const WORSE: f64 = 29.5;
 /// Least square left of ln k that is counted: no test's k is known to better than a per cent.
 const LEAST_LEFT: f64 = 1e-4;
 
+/// Leverage of a single test from which the slope is that of this test against all others, which may be off for another reason.
+const LEVERAGE: f64 = 0.98;
+
 /// A condition of tests, with its name, x of an operation and the last cycles measured, and the least range of that; None where a test does not state it.
 type Condition = (&'static str, fn(&Operation, f64) -> Option<f64>, f64);
 const TEMPERATURE: &str = "bulk temperature";
@@ -131,6 +134,12 @@ fn line(points: &[(f64, f64)], least_range: f64) -> Option<(f64, f64, f64)> {
     if range < least_range {
         return None;
     }
+    if points
+        .iter()
+        .any(|p| n.recip() + (p.0 - x).powi(2) / xx > LEVERAGE)
+    {
+        return None;
+    }
     let slope = xy / xx;
     let left = sum(&|x, y| (y - slope * x).powi(2));
     let error = (left / (n - 2.0) / xx).sqrt();
@@ -212,6 +221,9 @@ mod tests {
                 .contains("and falls with their number of cycles (as cycles to the power of -0.30"),
             "{shorter}"
         );
+        // one test against all others
+        let against = |last: f64| [(0.0, 0.01), (0.02, -0.01), (0.01, 0.0), (last, 1.0)];
+        assert_eq!(line(&against(1.0), RANGE), None);
         // too few, or one condition for all
         assert_eq!(line(&five[..3], RANGE), None);
         assert_eq!(
