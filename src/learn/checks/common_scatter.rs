@@ -6,7 +6,8 @@
 //! τ² = T − W
 //! ```
 //! σ: scatter of each profile; τ: of what they share. A misfit is shared too, but it is smooth along the flank, and neighbouring d have one sign
-//! then: those of scatter are correlated by −2/3, and 73 % of neighbours differ in sign.
+//! then: those of scatter are correlated by −2/3, and 73 % of neighbours differ in sign. Where places lie so far apart that a misfit is not smooth
+//! among them, it still is alike in tests that were measured at the same places; new profiles are not.
 
 use std::collections::BTreeMap;
 
@@ -26,6 +27,10 @@ const SHARED: f64 = 0.35;
 /// Share of neighbouring differences of opposite sign from which they are scatter, not something smooth.
 const ROUGH: f64 = 0.62;
 
+/// Correlation of two tests' differences at the same places, and its standard deviations under chance, from which what they share is no scatter.
+const ALIKE: f64 = 0.3;
+const ALIKE_SIGMAS: f64 = 3.0;
+
 /// Standard deviation of the scatter that all checkpoints share, µm; None where too little was measured to tell, or there is none.
 pub(in crate::learn) fn shared_scatter(likelihood: &Likelihood<'_>, model: &[f64]) -> Option<f64> {
     let rows: Vec<&Observation> = (0..likelihood.len())
@@ -34,14 +39,33 @@ pub(in crate::learn) fn shared_scatter(likelihood: &Likelihood<'_>, model: &[f64
     shared_of(&rows, &likelihood.residual(model))
 }
 
-/// The same about a fit, in words, where the study expects less.
+/// The same in words, of the base `model`.
+pub(in crate::learn) fn counted(likelihood: &Likelihood<'_>, model: &[f64], um: f64) -> String {
+    let rows: Vec<&Observation> = (0..likelihood.len())
+        .map(|i| likelihood.observation(i))
+        .collect();
+    if are_alike(&rows, &likelihood.residual(model)) {
+        return format!(
+            "neighbouring points scatter by {} µm in the same way at all checkpoints of a flank, and alike in all tests: so does what the model misses \
+             where it bends between points that lie far apart. It was counted as noise here; a finer trace would tell",
+            digits(um)
+        );
+    }
+    format!(
+        "{}. It was counted so here; `[noise] new_profile` makes every command do so",
+        in_words(um)
+    )
+}
+
+/// The same about a fit, in words, where the study expects less and tests do not have it alike.
 pub fn scatter_of_new_profile(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> {
     let fitted = |row: &usize| study.tests[data.observations[*row].test].role == Role::Fit;
     let of_fit: Vec<usize> = (0..data.observations.len()).filter(fitted).collect();
     let rows: Vec<&Observation> = of_fit.iter().map(|&row| &data.observations[row]).collect();
     let residual = (of_fit.iter().zip(&rows)).map(|(&row, o)| fit.rows[row].standardised * o.sigma);
-    let found = shared_of(&rows, &residual.collect::<Vec<f64>>())?;
-    (study.noise.new_profile_um == 0.0).then(|| {
+    let residual = residual.collect::<Vec<f64>>();
+    let found = shared_of(&rows, &residual)?;
+    (study.noise.new_profile_um == 0.0 && !are_alike(&rows, &residual)).then(|| {
         format!(
             "{}; `[noise] new_profile = {}` counts it so for every command, beside the sigma of each worn profile",
             in_words(found),
@@ -51,7 +75,7 @@ pub fn scatter_of_new_profile(study: &Study, data: &Dataset, fit: &Fit) -> Optio
 }
 
 /// A shared scatter in words.
-pub(in crate::learn) fn in_words(um: f64) -> String {
+fn in_words(um: f64) -> String {
     format!(
         "neighbouring points scatter by {} µm in the same way at all checkpoints of a flank, as they do where one new profile was taken off all worn \
          ones: that is no wear, and no column sigma tells it",
@@ -68,8 +92,8 @@ fn digits(um: f64) -> String {
 /// Share of a row's variance that is left without the mean of its place, at least: a row much more exact than the others is nearly that mean.
 const LEAST_SHARE: f64 = 0.05;
 
-/// Differences of one flank's three places at all checkpoints.
-type AtThree = BTreeMap<u64, f64>;
+/// Differences of one flank's three places at all checkpoints, with the standard deviation that the rows' sigmas give each.
+type AtThree = BTreeMap<u64, (f64, f64)>;
 /// A surface, line across the face and tooth, which have a new profile of their own.
 type Flank = (Surface, Option<u64>, Option<String>);
 /// The differences of every flank by the places, nm.
@@ -83,7 +107,7 @@ pub(super) fn shared_of(rows: &[&Observation], residual: &[f64]) -> Option<f64> 
     for flank in flanks.values() {
         let mut before: Option<f64> = None;
         for at_three in flank.values() {
-            let values: Vec<f64> = at_three.values().copied().collect();
+            let values: Vec<f64> = at_three.values().map(|d| d.0).collect();
             if values.len() < 2 {
                 before = None;
                 continue;
@@ -106,6 +130,32 @@ pub(super) fn shared_of(rows: &[&Observation], residual: &[f64]) -> Option<f64> 
     (total - own > SHARED * total).then(|| (total - own).sqrt())
 }
 
+/// Whether tests have correlated differences of a residual at the same places.
+fn are_alike(rows: &[&Observation], residual: &[f64]) -> bool {
+    let flanks = differences(rows, residual);
+    let mut places: BTreeMap<_, Vec<f64>> = BTreeMap::new();
+    for (((_, member, ..), line, tooth), flank) in &flanks {
+        for (three, at_three) in flank {
+            let in_sigmas = at_three.values().map(|(d, sigma)| d / sigma).sum::<f64>();
+            let tests = places.entry((member, line, tooth, three)).or_default();
+            tests.push(in_sigmas / at_three.len() as f64);
+        }
+    }
+    let (mut both, mut first, mut second, mut pairs) = (0.0, 0.0, 0.0, 0usize);
+    for tests in places.values() {
+        for (i, one) in tests.iter().enumerate() {
+            for other in &tests[..i] {
+                both += one * other;
+                first += one.powi(2);
+                second += other.powi(2);
+                pairs += 1;
+            }
+        }
+    }
+    let correlation = both / (first * second).sqrt();
+    correlation > ALIKE.max(ALIKE_SIGMAS / (pairs as f64).sqrt())
+}
+
 /// Of all flanks; where a checkpoint has several curves at the same places, the last.
 fn differences(rows: &[&Observation], residual: &[f64]) -> Flanks {
     let surfaces = surfaces(rows);
@@ -120,7 +170,13 @@ fn differences(rows: &[&Observation], residual: &[f64]) -> Flanks {
         let places = difference.rows.map(|row| nanometres(rows[row]));
         let at_three = flanks.entry(flank).or_default().entry(places).or_default();
         let length = difference.weights.iter().map(|w| w * w).sum::<f64>().sqrt();
-        at_three.insert(first.cycles.to_bits(), difference.value / length);
+        let own = (difference.weights.iter().zip(&difference.rows))
+            .map(|(w, &row)| (w * rows[row].sigma).powi(2));
+        let sigma = own.sum::<f64>().sqrt();
+        at_three.insert(
+            first.cycles.to_bits(),
+            (difference.value / length, sigma / length),
+        );
     }
     flanks
 }
@@ -207,6 +263,23 @@ mod tests {
             }
         }
         (rows, residual)
+    }
+
+    /// Two tests at the same places: what they have alike is no scatter of their new profiles, one that is the pinion's here and the gear's there is.
+    #[test]
+    fn what_all_tests_share_is_told_from_scatter() {
+        let (rows, residual) = flanks(0.2, 0.0);
+        let (_, others) = flanks(0.2, 1.0);
+        let half = rows.len() / 2;
+        let with = |second: &[f64]| {
+            let moved = rows.iter().cloned().map(|o| Observation { test: 1, ..o });
+            let all: Vec<Observation> = rows.iter().cloned().chain(moved).collect();
+            let residual = [&residual[..], second].concat();
+            are_alike(&all.iter().collect::<Vec<_>>(), &residual)
+        };
+        assert!(with(&others));
+        let exchanged = [&others[half..], &others[..half]].concat();
+        assert!(!with(&exchanged));
     }
 
     fn found(shared: f64, misfit: f64) -> Option<f64> {

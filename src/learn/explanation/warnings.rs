@@ -96,10 +96,8 @@ fn of_sigma(
     warnings.extend(noise_level::replaced(likelihood));
     let new_profile_um = likelihood.noise.new_profile_um;
     if new_profile_um > likelihood.measured.study().noise.new_profile_um {
-        warnings.push(format!(
-            "{}. It was counted so here; `[noise] new_profile` makes every command do so",
-            common_scatter::in_words(new_profile_um)
-        ));
+        let model = &base.fitted.found.model;
+        warnings.push(common_scatter::counted(likelihood, model, new_profile_um));
     }
     if sigma == SigmaModel::AS_STATED
         && let Some(smooth) = noise_level::too_smooth(likelihood, &base.fitted.found.model)
