@@ -4,6 +4,7 @@ mod compute;
 mod design;
 mod figures;
 mod grid;
+mod idle_keys;
 mod kept;
 mod parts;
 mod picture;
@@ -232,8 +233,9 @@ fn whole(
     }
     let folder = staging.commit()?;
     let mut text = tables::table(design, outputs, points, results);
-    if let Some(sensitivity) = &sensitivity {
-        text += &sensitivity.text();
+    match &sensitivity {
+        Some(sensitivity) => text += &sensitivity.text(),
+        None => text += &idle_keys::text(design, outputs, points, results),
     }
     if reused > 0 {
         text += &format!("{reused} of {} points were done already\n", points.len());

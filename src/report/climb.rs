@@ -96,7 +96,7 @@ pub fn summary(result: &Result<'_>, study: &str, folder: &Path) -> String {
         .map(|entry| entry.decided_by)
     {
         Some(Fidelity::Screening) => " (by analytic contact)",
-        Some(Fidelity::Middle) => " (by coarse elements)",
+        Some(Fidelity::Middle) => " (by coarse elements; gearwear diagnose decides by fine ones)",
         _ => "",
     };
     let _ = writeln!(text, "\nof what is left{by}: {}", result.diagnosis.sentence);

@@ -40,13 +40,15 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition, besides: Option<&str
         .collect();
     let chosen = drafts[addition.form].form();
     let parameters = comparison.parameters.iter();
-    let mut lines: Vec<String> = parameters.map(|p| parameter(p, comparison)).collect();
+    let betters_nothing = addition.compared.given_up.is_none() && addition.betters_nothing();
+    let no_hold = betters_nothing && addition.makes_agree().is_none();
+    let mut lines: Vec<String> = (parameters.map(|p| parameter(p, comparison, no_hold))).collect();
     lines.extend(no_end(addition, besides));
     lines.extend(ends_early(comparison));
     lines.extend(chi2_with_and_without(addition));
     lines.extend(measured_by(addition));
-    if addition.compared.given_up.is_none() && addition.betters_nothing() {
-        lines.push(betters_nothing(addition.makes_agree()));
+    if betters_nothing {
+        lines.push(said_of_nothing(addition.makes_agree()));
     }
     if tried.len() > 1 {
         lines.push(form(chosen, &tried, addition.without_chi2_per_point));
@@ -96,7 +98,7 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition, besides: Option<&str
 }
 
 /// What is said of an effect over which χ² does not fall; `agree`: the scatter of k without it and with it, where it makes the tests agree.
-fn betters_nothing(agree: Option<[f64; 2]>) -> String {
+fn said_of_nothing(agree: Option<[f64; 2]>) -> String {
     match agree {
         None => "the effect betters nothing that noise would not: leave it out".to_owned(),
         Some([without, with]) => format!(
@@ -108,8 +110,8 @@ fn betters_nothing(agree: Option<[f64; 2]>) -> String {
     }
 }
 
-/// A parameter with its value and what is known of it.
-fn parameter(p: &ParameterRecord, comparison: &Comparison) -> String {
+/// A parameter with its value and what is known of it; `no_hold`: the effect betters nothing that noise would not.
+fn parameter(p: &ParameterRecord, comparison: &Comparison, no_hold: bool) -> String {
     let at_bound = if p.at_bound { ", at a bound" } else { "" };
     let known = match p.interval_95 {
         Some(ends) => {
@@ -120,6 +122,7 @@ fn parameter(p: &ParameterRecord, comparison: &Comparison) -> String {
         None if comparison.fit.is_far() => {
             "no interval: the model with it is still far from the measurements".to_owned()
         }
+        None if no_hold => "no interval: the measurements do not ask for the effect".to_owned(),
         None => NO_INTERVAL.to_owned(),
     };
     let value = with_unit(significant(p.value, 4), &p.unit);
@@ -248,13 +251,13 @@ impl Report {
 
 #[cfg(test)]
 mod tests {
-    use super::betters_nothing;
+    use super::said_of_nothing;
 
     /// Three weighed tests, two at one speed: an effect of the speed leaves χ² where it was and takes the scatter of k from 34 to 7 %.
     #[test]
     fn an_effect_that_makes_the_tests_agree_is_not_to_be_left_out() {
-        assert!(betters_nothing(None).ends_with("leave it out"));
-        let said = betters_nothing(Some([0.342, 0.074]));
+        assert!(said_of_nothing(None).ends_with("leave it out"));
+        let said = said_of_nothing(Some([0.342, 0.074]));
         assert!(
             said.contains("scatters by 7.4 % in place of 34 %"),
             "{said}"

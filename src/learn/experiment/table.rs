@@ -170,7 +170,7 @@ fn basis(decided: Option<&Decided>, from_diagnosis: bool) -> String {
             format!("the leaders of the finished diagnosis{unknown}")
         }
         Some(_) => "the leaders by the analytic model alone: it can fit at most one of those that the finished diagnosis names".to_owned(),
-        None => "the leaders by the analytic model alone, which may be others than those of a diagnosis: gearwear diagnose STUDY decides, and plan then starts from its answer".to_owned(),
+        None => "the leaders by the analytic model alone, which may be others than those of a diagnosis, or nothing may be missing: gearwear diagnose STUDY decides, and plan then starts from its answer".to_owned(),
     }
 }
 
