@@ -10,6 +10,7 @@
 //! All of a pass is covered whatever the step between positions, so no scallops appear, and the worn area is conserved
 //! exactly: Σ_i D_ki ∫N_i = ∫ hat |v| dy' · ∫ N_k dξ.
 
+use crate::numeric::passed;
 use crate::numeric::sparse::SparseRows;
 
 /// Motion of a contact along one flank around a mesh position.
@@ -108,8 +109,6 @@ fn spacing(stations: &[f64]) -> f64 {
 /// Sums contributions to neighbouring stations, for one row and for the next.
 struct Accumulator<'s> {
     stations: &'s [f64],
-    /// Stations per length, 1/mm, as if they lay evenly.
-    density: f64,
     /// The inverse of each station's [`tributary`], 1/mm.
     per_length: Vec<f64>,
     sums: [Sums; 2],
@@ -127,7 +126,6 @@ impl<'s> Accumulator<'s> {
         let inverse = |i| tributary(stations, i).recip();
         Self {
             stations,
-            density: last as f64 / (stations[last] - stations[0]),
             per_length: (0..=last).map(inverse).collect(),
             sums: [0, 1].map(|_| Sums {
                 areas: vec![0.0; stations.len()],
@@ -144,27 +142,13 @@ impl<'s> Accumulator<'s> {
         // past an end of the flank, back from it; farther past than a flank is long nothing is carried
         let beyond = s - s.clamp(ends[0], ends[1]);
         let s = (s - 2.0 * beyond).clamp(ends[0], ends[1]);
-        let next = self.after(s).clamp(1, last);
+        let next = passed(stations, s).clamp(1, last);
         let t = (s - stations[next - 1]) / (stations[next] - stations[next - 1]);
         for (sums, area) in self.sums.iter_mut().zip(areas) {
             sums.areas[next - 1] += (1.0 - t) * area;
             sums.areas[next] += t * area;
             sums.touched = (sums.touched.0.min(next - 1), sums.touched.1.max(next + 1));
         }
-    }
-
-    /// Number of stations up to `s`; they lie about evenly, so it is looked for near where it would then be.
-    fn after(&self, s: f64) -> usize {
-        let stations = self.stations;
-        let near = (s - stations[0]) * self.density;
-        let mut next = (near + 1.0).clamp(0.0, stations.len() as f64) as usize;
-        while next < stations.len() && stations[next] <= s {
-            next += 1;
-        }
-        while next > 0 && stations[next - 1] > s {
-            next -= 1;
-        }
-        next
     }
 
     /// The sums of this row; the next one becomes this one.
@@ -217,6 +201,41 @@ mod tests {
                     .map(|i| depth[i] * tributary(&stations, i))
                     .sum();
                 assert!((area / (length * travel.slid()) - 1.0).abs() < 1e-12);
+            }
+        }
+    }
+
+    /// Each hat's wear lies about its own middle, moved the way in which the sliding grows:
+    ///
+    /// ```text
+    /// ∫ N_k ξ dξ / ∫ N_k dξ = (ξ_{k-1} + ξ_k + ξ_{k+1})/3       of the first and the last hat (2 ξ_k + ξ_next)/3
+    /// ∫ hat |v| s' y dy / ∫ hat |v| dy = s' v' step²/(6 v₀)      with one sign of v = v₀ + v' y
+    /// ```
+    #[test]
+    fn the_middle_of_what_is_laid_down_is_in_closed_form() {
+        let stations: Vec<f64> = (0..=40).map(|i| 0.01 * f64::from(i)).collect();
+        let xi = [-0.03, -0.01, 0.02, 0.05];
+        let middles = [-0.07 / 3.0, -0.02 / 3.0, 0.06 / 3.0, 0.12 / 3.0];
+        for (slip, slip_slope, speed) in [(0.3, 2.0, -0.7), (0.3, -1.5, 0.7), (-0.4, 2.0, 0.7)] {
+            let travel = Travel {
+                step: 0.08,
+                speed,
+                slip,
+                slip_slope,
+            };
+            let moved = speed * slip_slope * travel.step.powi(2) / (6.0 * slip);
+            let arc: Vec<f64> = xi.iter().map(|x| 0.2 + 1.1 * x).collect();
+            let d = deposit(&xi, &arc, &stations, travel);
+            for (k, middle) in middles.iter().enumerate() {
+                let mut depth = vec![0.0; stations.len()];
+                d.scatter(k, 1.0, &mut depth);
+                let areas: Vec<f64> = (0..stations.len())
+                    .map(|i| depth[i] * tributary(&stations, i))
+                    .collect();
+                let moment: f64 = areas.iter().zip(&stations).map(|(a, s)| a * s).sum();
+                let found = moment / areas.iter().sum::<f64>();
+                let expected = 0.2 + 1.1 * middle + moved;
+                assert!((found - expected).abs() < 1e-12, "{found} {expected}");
             }
         }
     }

@@ -225,11 +225,11 @@ impl PlacedInvolute {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::gear::{BasicRack, Gear, ToothSpec};
 
-    pub(in crate::contact) fn reference() -> Pair {
+    pub(crate) fn reference() -> Pair {
         let rack = BasicRack {
             module: 2.0,
             pressure_angle: 20f64.to_radians(),

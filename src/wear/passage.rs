@@ -325,3 +325,66 @@ impl<'a> View<'a> {
         [(after - 1, 1.0 - t), (after, t)]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::contact_point::ContactPoint;
+    use crate::contact::cycle::{CycleSpec, Stations};
+    use crate::contact::frame::tests::reference;
+    use crate::contact::hertz::HertzContact;
+    use crate::contact::model::ContactModel;
+
+    /// Of all instants, none left out, the first with the largest pressure, to the bit: on new flanks and on some that waves have worn.
+    #[test]
+    fn the_largest_pressure_is_that_of_all_instants() {
+        let pair = reference();
+        let spec = CycleSpec {
+            positions: 23,
+            spacing: 0.02,
+            even: 0.2,
+            window: 0.2,
+            reach: 0.02,
+        };
+        let cycle = Cycle::new(&pair, &Stations::new(&pair, 0.02), spec);
+        let points = ContactPoint::all(&cycle, None);
+        let hertz = HertzContact::new(&cycle, &points, 3000.0, 1.15e5, 14.0);
+        for waves in [0.0, 0.01] {
+            let worn = |arc: &Vec<f64>| -> Vec<f64> {
+                arc.iter()
+                    .map(|s| waves * (1.0 + (5.0 * s).sin()))
+                    .collect()
+            };
+            let depth = [0, 1].map(|side| worn(&cycle.stations.arc[side]));
+            let depth = [depth[0].as_slice(), depth[1].as_slice()];
+            let contacts: Vec<PositionContact> = (0..spec.positions)
+                .map(|q| hertz.solve(q, depth, &[]).unwrap())
+                .collect();
+            for passage in [Passage::new(&cycle), Passage::averaged(&cycle, 0.1)] {
+                for side in [0, 1] {
+                    let views: Vec<View> = (0..passage.order.len())
+                        .map(|m| passage.view(&cycle, &contacts, side, m))
+                        .collect();
+                    let moments = passage.moments(&cycle, &contacts, side);
+                    assert!(moments.iter().any(|moment| moment.pressure > 500.0));
+                    for (moment, arc) in moments.iter().zip(&cycle.stations.arc[side]) {
+                        let mut largest = (0.0, None);
+                        for m in 0..views.len() - 1 {
+                            for n in 0..INSTANTS {
+                                let t = n as f64 / INSTANTS as f64;
+                                let (from, to) = (&views[m], &views[m + 1]);
+                                let offset = arc - ((1.0 - t) * from.centre + t * to.centre);
+                                let pressure =
+                                    (1.0 - t) * from.pressure(offset) + t * to.pressure(offset);
+                                if pressure > largest.0 {
+                                    largest = (pressure, Some((m, t)));
+                                }
+                            }
+                        }
+                        assert_eq!((moment.pressure, moment.instant), largest, "at {arc}");
+                    }
+                }
+            }
+        }
+    }
+}
