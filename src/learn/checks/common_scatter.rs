@@ -33,17 +33,13 @@ const ALIKE_SIGMAS: f64 = 3.0;
 
 /// Standard deviation of the scatter that all checkpoints share, µm; None where too little was measured to tell, or there is none.
 pub(in crate::learn) fn shared_scatter(likelihood: &Likelihood<'_>, model: &[f64]) -> Option<f64> {
-    let rows: Vec<&Observation> = (0..likelihood.len())
-        .map(|i| likelihood.observation(i))
-        .collect();
+    let rows = likelihood.observations();
     shared_of(&rows, &likelihood.residual(model))
 }
 
 /// The same in words, of the base `model`.
 pub(in crate::learn) fn counted(likelihood: &Likelihood<'_>, model: &[f64], um: f64) -> String {
-    let rows: Vec<&Observation> = (0..likelihood.len())
-        .map(|i| likelihood.observation(i))
-        .collect();
+    let rows = likelihood.observations();
     if are_alike(&rows, &likelihood.residual(model)) {
         return format!(
             "neighbouring points scatter by {} µm in the same way at all checkpoints of a flank, and alike in all tests: so does what the model misses \

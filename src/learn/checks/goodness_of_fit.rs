@@ -17,7 +17,6 @@ use serde::Serialize;
 use super::noise_level;
 use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::noise::SigmaModel;
-use crate::measure::Observation;
 use crate::numeric::chi_squared::upper_tail;
 
 /// Largest error of stated noise sizes that is taken for ordinary, as a factor.
@@ -45,9 +44,7 @@ impl GoodnessOfFit {
     pub(in crate::learn) fn new(likelihood: &Likelihood<'_>, model: &[f64]) -> Self {
         if !matches!(likelihood.noise.sigma, SigmaModel::Stated { .. }) {
             // neighbours scatter as this σ by the choice of it
-            let rows: Vec<&Observation> = (0..likelihood.len())
-                .map(|i| likelihood.observation(i))
-                .collect();
+            let rows = likelihood.observations();
             let sigma = likelihood.noise.sigma.of(&rows);
             let off = likelihood.standardised(model);
             let squares = (off.iter().zip(rows).zip(sigma))

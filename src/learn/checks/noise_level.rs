@@ -47,14 +47,14 @@ const PARTS: u8 = 10;
 /// The σ that the scatter along traces calls for: as stated, unless that is clearly too small or of the wrong shape. Where a new profile is counted
 /// to scatter, of what is each profile's own. Estimated ones hold a part of the new profile's scatter too, each curve another, so that no factor takes it out.
 pub(in crate::learn) fn sigma_model(likelihood: &Likelihood<'_>, model: &[f64]) -> SigmaModel {
-    of_residual(&rows(likelihood), &own_residual(likelihood, model))
+    of_residual(&likelihood.observations(), &own_residual(likelihood, model))
 }
 
 /// Measured minus model, without what the scatter of a new profile makes of it where that is counted.
 fn own_residual(likelihood: &Likelihood<'_>, model: &[f64]) -> Vec<f64> {
     let residual = likelihood.residual(model);
     match likelihood.noise.new_profile_um {
-        um if um > 0.0 => without_shared(&rows(likelihood), &residual, um),
+        um if um > 0.0 => without_shared(&likelihood.observations(), &residual, um),
         _ => residual,
     }
 }
@@ -167,7 +167,7 @@ pub(in crate::learn) fn scatter_in_words(sigma: SigmaModel) -> Option<String> {
 /// What is said of a diagnosis that goes by the scatter in place of the σ of the rows, which are stated or `estimated`; None where it does not.
 pub(in crate::learn) fn replaced(likelihood: &Likelihood<'_>) -> Option<String> {
     let estimated = likelihood.measured.data.estimates_sigmas();
-    let points = median_points(&rows(likelihood));
+    let points = median_points(&likelihood.observations());
     replaced_in_words(likelihood.noise.sigma, estimated, points)
 }
 
@@ -195,15 +195,9 @@ pub(in crate::learn) fn too_smooth(likelihood: &Likelihood<'_>, model: &[f64]) -
 
 /// Scatter along traces over stated σ; None if there is too little to tell.
 pub(in crate::learn) fn scatter(likelihood: &Likelihood<'_>, model: &[f64]) -> Option<f64> {
-    let (rows, residual) = (rows(likelihood), own_residual(likelihood, model));
+    let (rows, residual) = (likelihood.observations(), own_residual(likelihood, model));
     let stated = SigmaModel::AS_STATED.of(&rows);
     scale(&differences(&rows, &residual), &stated)
-}
-
-fn rows<'a>(likelihood: &'a Likelihood<'_>) -> Vec<&'a Observation> {
-    (0..likelihood.len())
-        .map(|i| likelihood.observation(i))
-        .collect()
 }
 
 /// Scatter over these σ; None of too few differences.

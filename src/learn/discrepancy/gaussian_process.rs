@@ -45,9 +45,7 @@ pub(in crate::learn) fn log_evidence(
     parameters: &[Parameter],
     change: Option<&[f64]>,
 ) -> f64 {
-    let observations: Vec<&Observation> = (0..likelihood.len())
-        .map(|i| likelihood.observation(i))
-        .collect();
+    let observations = likelihood.observations();
     let size = sizes(&observations, &fit.model);
     let form = change.map(|change| (change, OWN_FORM));
     let even = even_sizes(&observations, &size);
@@ -138,9 +136,7 @@ pub(in crate::learn) fn most_probable(
     fit: &SearchEnd,
     parameters: &[Parameter],
 ) -> Discrepancy {
-    let observations: Vec<&Observation> = (0..likelihood.len())
-        .map(|i| likelihood.observation(i))
-        .collect();
+    let observations = likelihood.observations();
     let size = sizes(&observations, &fit.model);
     let even = even_sizes(&observations, &size);
     let each = curves(&size, &even).into_par_iter().map(|(size, error)| {

@@ -15,7 +15,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::learn::candidates::likelihood::Likelihood;
-use crate::measure::{Observation, surfaces};
+use crate::measure::surfaces;
 use crate::numeric::chebyshev;
 
 /// Terms along the position and over the cycles that are tried.
@@ -196,8 +196,7 @@ impl Group {
 
 fn groups(likelihood: &Likelihood<'_>) -> Vec<Group> {
     let mut rows = BTreeMap::new();
-    let observations = (0..likelihood.len()).map(|i| likelihood.observation(i));
-    let observations: Vec<&Observation> = observations.collect();
+    let observations = likelihood.observations();
     for (i, surface) in surfaces(&observations).into_iter().enumerate() {
         let of: &mut Vec<usize> = rows.entry(surface).or_default();
         of.push(i);

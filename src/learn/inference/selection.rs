@@ -82,6 +82,11 @@ impl<'a> Selection<'a> {
         &self.data.observations[self.numbers[row]]
     }
 
+    /// The observations of all rows.
+    pub(in crate::learn) fn observations(&self) -> Vec<&Observation> {
+        (0..self.len()).map(|row| self.observation(row)).collect()
+    }
+
     /// Measured minus `model`.
     pub(in crate::learn) fn residual(&self, model: &[f64]) -> Vec<f64> {
         self.values.iter().zip(model).map(|(y, f)| y - f).collect()
