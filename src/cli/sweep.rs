@@ -235,7 +235,7 @@ fn whole(
     let mut text = tables::table(design, outputs, points, results);
     match &sensitivity {
         Some(sensitivity) => text += &sensitivity.text(),
-        None => text += &idle_keys::text(design, outputs, points, results),
+        None => text += &idle_keys::text(design, points, results),
     }
     if reused > 0 {
         text += &format!("{reused} of {} points were done already\n", points.len());

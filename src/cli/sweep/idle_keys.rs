@@ -1,27 +1,16 @@
-//! Keys that change no figure of a sweep: nothing in the study depends on them.
+//! Keys that change no figure of a sweep: nothing that it asks for depends on them.
 
 use std::collections::BTreeMap;
 
 use super::design::Design;
-use super::figures::Outputs;
+use super::figures::Figures;
 use super::points::{Point, Result};
 use crate::effects::CATALOGUE;
 
 /// A line for each varied key of which all points that differ in it alone have the same figures.
-pub(super) fn text(
-    design: &Design,
-    outputs: &Outputs,
-    points: &[Point],
-    results: &[Result],
-) -> String {
+pub(super) fn text(design: &Design, points: &[Point], results: &[Result]) -> String {
     let values: Vec<&[String]> = points.iter().map(|point| &point.values[..]).collect();
-    let figures: Vec<Option<Vec<Option<f64>>>> = (results.iter())
-        .map(|result| {
-            let figures = result.as_ref().ok()?;
-            let columns = outputs.columns.iter();
-            Some(columns.map(|column| figures.value(column)).collect())
-        })
-        .collect();
+    let figures: Vec<Option<&Figures>> = results.iter().map(|r| r.as_ref().ok()).collect();
     let keys = design.keys.iter().enumerate();
     keys.filter(|(i, _)| is_idle(*i, &values, &figures))
         .map(|(_, key)| line(key))
@@ -29,11 +18,11 @@ pub(super) fn text(
 }
 
 /// Whether all points that differ in key number `key` alone have the same figures; no where no two do.
-fn is_idle(key: usize, values: &[&[String]], figures: &[Option<Vec<Option<f64>>>]) -> bool {
-    let mut alike: BTreeMap<Vec<&String>, &Vec<Option<f64>>> = BTreeMap::new();
+fn is_idle<T: PartialEq>(key: usize, values: &[&[String]], figures: &[Option<&T>]) -> bool {
+    let mut alike: BTreeMap<Vec<&String>, &T> = BTreeMap::new();
     let mut compared = false;
     for (values, figures) in values.iter().zip(figures) {
-        let Some(figures) = figures else { continue };
+        let Some(figures) = *figures else { continue };
         let others = (values.iter().enumerate())
             .filter(|(i, _)| *i != key)
             .map(|(_, value)| value)
@@ -47,19 +36,16 @@ fn is_idle(key: usize, values: &[&[String]], figures: &[Option<Vec<Option<f64>>>
     compared
 }
 
-/// What to say of such a key, with the effects that would depend on it.
+/// What to say of such a key, with the effects that use it.
 fn line(key: &str) -> String {
     let using = CATALOGUE.iter().filter(|card| card.needs.contains(&key));
     let using: Vec<&str> = using.map(|card| card.name).collect();
     let effects = match &using[..] {
         [] => String::new(),
-        using => format!(
-            "; it acts through {} (gearwear effects {})",
-            using.join(", "),
-            using[0]
-        ),
+        [one] => format!("; the effect {one} uses it"),
+        several => format!("; the effects {} use it", several.join(", ")),
     };
-    format!("{key} changes none of these figures: nothing in this study depends on it{effects}\n")
+    format!("{key} changes none of these figures{effects}\n")
 }
 
 #[cfg(test)]
@@ -72,15 +58,13 @@ mod tests {
         let rows = [["1", "7"], ["1", "8"], ["2", "7"], ["2", "8"]];
         let rows: Vec<Vec<String>> = rows.map(|row| row.map(str::to_owned).to_vec()).to_vec();
         let values: Vec<&[String]> = rows.iter().map(|row| &row[..]).collect();
-        let figures = |all: [f64; 4]| all.map(|one| Some(vec![Some(one), None])).to_vec();
-        let plain = figures([3.0, 3.0, 5.0, 5.0]);
-        assert!(!is_idle(0, &values, &plain) && is_idle(1, &values, &plain));
-        let together = figures([3.0, 3.0, 5.0, 5.5]);
-        assert!(!is_idle(1, &values, &together));
+        let idle = |key: usize, figures: [Option<&f64>; 4]| is_idle(key, &values, &figures);
+        let grid = [Some(&3.0), Some(&3.0), Some(&5.0), Some(&5.0)];
+        assert!(!idle(0, grid) && idle(1, grid));
+        assert!(!idle(1, [Some(&3.0), Some(&3.0), Some(&5.0), Some(&5.5)]));
         // points of which none differs in one key alone tell nothing
-        assert!(!is_idle(0, &values[..1], &plain[..1]));
-        let failed = vec![Some(vec![Some(3.0)]), None, None, Some(vec![Some(3.0)])];
-        assert!(!is_idle(1, &values, &failed));
-        assert!(line("lubricant.viscosity").contains("through film_thickness"));
+        assert!(!is_idle(0, &values[..1], &grid[..1]));
+        assert!(!idle(1, [Some(&3.0), None, None, Some(&3.0)]));
+        assert!(line("lubricant.viscosity").contains("the effects film_thickness, "));
     }
 }
