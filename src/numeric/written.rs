@@ -49,6 +49,15 @@ pub fn capitalised(text: &str) -> String {
     first.unwrap_or_default() + letters.as_str()
 }
 
+/// A sentence with the mark at its end: its own, else a full stop.
+pub fn ended(text: &str) -> String {
+    if text.ends_with(['?', '.']) {
+        text.to_owned()
+    } else {
+        format!("{text}.")
+    }
+}
+
 /// A unit as people read it, of one that is written with the letters of a keyboard: `µm`, `N/(mm·µm)`.
 pub fn unit(plain: &str) -> String {
     let mut shown = String::new();
@@ -195,6 +204,12 @@ fn superscript(exponent: i32) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_question_keeps_its_mark() {
+        let both = ["is it in g?", "it is.", "look at it"].map(ended);
+        assert_eq!(both, ["is it in g?", "it is.", "look at it."]);
+    }
 
     #[test]
     fn units_are_shown_with_their_letters() {

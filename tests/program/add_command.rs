@@ -393,7 +393,9 @@ fn a_hopeless_effect_is_given_up_early() {
     write("made/known.toml", study(&format!("{hidden}{measured}")));
     let (_, out, _) = gearwear(&home, &["add", "made/known.toml", "tip_relief"]);
     assert!(
-        out.contains("(without it ") && out.contains("leave it out"),
+        out.contains("(without it ")
+            && out.contains("leave it out")
+            && out.contains("no interval: the measurements do not ask for the effect"),
         "{out}"
     );
     // nor has it intervals on the ladder, where those of what it is added to stand

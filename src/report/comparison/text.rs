@@ -3,7 +3,7 @@ use std::path::Path;
 
 use crate::learn::{Comparison, ParameterRecord, TestRecord};
 use crate::numeric::chi_squared::normal_deviate;
-use crate::numeric::written::{self, percent, significant, uncertain, whole};
+use crate::numeric::written::{self, ended, percent, significant, uncertain, whole};
 use crate::study::{Study, WEAR_COEFFICIENT};
 
 /// χ² per point above which the model is reported to lack something: three standard deviations √(2/n) above 1.
@@ -21,7 +21,7 @@ pub(super) fn lacks(comparison: &Comparison) -> bool {
 /// How wrong the model is, and where it fails worst.
 pub fn conclusion(comparison: &Comparison) -> String {
     let mut sentences: Vec<String> = (comparison.sanity.iter())
-        .map(|suspect| format!("Check first: {suspect}."))
+        .map(|suspect| format!("Check first: {}", ended(suspect)))
         .collect();
     let shares = [
         (&comparison.fit, "the tests it is fitted to"),

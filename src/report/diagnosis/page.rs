@@ -4,7 +4,7 @@ use super::{NOISE_MODEL, figures, means, name, parameters, unknown_name};
 use crate::learn::diagnose::{
     CHECK_FIRST, Diagnosis, Hypothesis, NextExperiment, NextTest, Ranked, Screened, Verdict,
 };
-use crate::numeric::written::{count, fixed, plain, probability, significant};
+use crate::numeric::written::{count, ended, fixed, plain, probability, significant};
 use crate::report::html::{Cell, Page, Section, Table};
 use crate::report::{drivers, learned, measured_curves};
 
@@ -48,10 +48,8 @@ fn why(diagnosis: &Diagnosis) -> Section {
     }
     for warning in &diagnosis.warnings {
         why = why.note(match warning.strip_prefix(CHECK_FIRST) {
-            // a question, with its mark
-            Some(question) if question.ends_with(['?', '.']) => format!("Check first: {question}"),
-            Some(request) => format!("Check first: {request}."),
-            None => format!("Warning: {warning}."),
+            Some(request) => format!("Check first: {}", ended(request)),
+            None => format!("Warning: {}", ended(warning)),
         });
     }
     why

@@ -24,7 +24,7 @@ pub(super) fn masses_without_wear(study: &Study, rows: &[FittedRow<'_>]) -> Opti
     };
     let (_, (o, called_for)) = found.iter().max_by(|a, b| a.1.1.total_cmp(&b.1.1))?;
     Some(format!(
-        "the {whose} next to nothing of the wear that {their} depths call for: test {}, {}, after {} cycles lost {} mg, by the depths about {}: are the \
+        "the {whose} next to nothing of the wear that {their} depths call for: test {}, {}, after {} cycles lost {} mg, by the depths about {} mg: are the \
          masses in mg, and those of the whole gears that wore in these tests?",
         study.tests[o.test].id,
         o.member.name(),
@@ -90,7 +90,7 @@ mod tests {
             "{asked}"
         );
         assert!(
-            asked.contains("lost 0.30 mg, by the depths about 300:"),
+            asked.contains("lost 0.30 mg, by the depths about 300 mg:"),
             "{asked}"
         );
         assert!(said(-0.01).is_some());
