@@ -143,6 +143,9 @@ fn parts(table: &Path, sheet: &Sheet, wanted: &Wanted<'_>) -> Vec<(String, Sheet
         None => {
             let table = import::weighings_across(sheet)
                 .or_else(|| import::checkpoints_across(sheet, wanted.quantity));
+            if table.is_some() {
+                name += " (cells counted as with a row for each value)";
+            }
             vec![(name, table.unwrap_or_else(|| sheet.clone()))]
         }
     }

@@ -7,7 +7,7 @@ mod durations;
 mod gauges;
 mod intervals;
 mod labels;
-mod merged;
+pub(super) mod merged;
 mod pairs;
 mod profiles;
 mod sides;

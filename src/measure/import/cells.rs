@@ -58,10 +58,25 @@ pub fn sheets(path: &Path) -> Result<Vec<Sheet>, ImportError> {
         }
         return Ok(sheets);
     }
-    let text = String::from_utf8(bytes)
+    let text = utf_16(&bytes)
+        .map_or_else(|| String::from_utf8(bytes), Ok)
         .or_else(|error| windows_1252(error.as_bytes()))
         .map_err(|()| cannot("it is not UTF-8 text; save it as UTF-8 or as .xlsx".to_owned()))?;
     Ok(vec![of_text(&text)])
+}
+
+/// "Unicode text" as spreadsheets save it: two bytes a unit, the smaller or the larger first as the mark at the beginning has it; none without that mark.
+fn utf_16(bytes: &[u8]) -> Option<String> {
+    let unit: fn([u8; 2]) -> u16 = match bytes.get(..2)? {
+        [0xff, 0xfe] => u16::from_le_bytes,
+        [0xfe, 0xff] => u16::from_be_bytes,
+        _ => return None,
+    };
+    let (pairs, []) = bytes[2..].as_chunks::<2>() else {
+        return None;
+    };
+    let units: Vec<u16> = pairs.iter().map(|pair| unit(*pair)).collect();
+    String::from_utf16(&units).ok()
 }
 
 /// Text as spreadsheets of western Europe save it: a byte a character, those from 0xA0 on as in Unicode. The letters and signs that
@@ -168,6 +183,20 @@ mod tests {
         ] {
             assert_eq!(with_plain_marks(text), plain, "{text}");
         }
+    }
+
+    #[test]
+    fn unicode_texts_of_spreadsheets_are_read_either_way_round() {
+        let text = "Prüfung\tr [mm]\n26,5\t1,2 µm";
+        let marked = || std::iter::once(0xfeff).chain(text.encode_utf16());
+        let little: Vec<u8> = marked().flat_map(u16::to_le_bytes).collect();
+        let big: Vec<u8> = marked().flat_map(u16::to_be_bytes).collect();
+        assert_eq!(utf_16(&little).as_deref(), Some(text));
+        assert_eq!(utf_16(&big).as_deref(), Some(text));
+        // no mark, half a unit, nothing
+        assert_eq!(utf_16(&little[2..]), None);
+        assert_eq!(utf_16(&little[..little.len() - 1]), None);
+        assert_eq!(utf_16(&[]), None);
     }
 
     #[test]

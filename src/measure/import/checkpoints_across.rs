@@ -1,6 +1,7 @@
 //! A row for each member with a column for each checkpoint, and one for the standard deviation beside each of them if it is stated:
 //! `Test | Member | 60000 cycles | sd | 300000 cycles | sd`.
 
+use super::arrange::merged;
 use super::columns::{Column, What, columns, holds_only};
 use super::numbers::{number_words, without_blanks};
 use super::units::name_and_unit;
@@ -52,6 +53,11 @@ pub fn checkpoints_across(sheet: &Sheet, asked: Option<Quantity>) -> Option<Shee
         return None;
     }
     let value = value(&sheet.rows[..head], &checkpoints, asked)?;
+    // below, each row becomes several, of which all state its test
+    let mut filled = sheet.clone();
+    for column in (others.iter()).filter(|column| column.what.own() == Some("test")) {
+        merged::fill_column(&mut filled, head, column.at);
+    }
     let cell = |cells: &[String], at: usize| cells.get(at).cloned().unwrap_or_default();
     let whose = |cells: &[String]| -> Vec<String> {
         others.iter().map(|column| cell(cells, column.at)).collect()
@@ -62,7 +68,7 @@ pub fn checkpoints_across(sheet: &Sheet, asked: Option<Quantity>) -> Option<Shee
     named.extend(["cycles".to_owned(), value]);
     named.extend(sigma_of(header, checkpoints[0].at));
     rows.push(named);
-    for cells in &sheet.rows[head + 1..] {
+    for cells in &filled.rows[head + 1..] {
         for checkpoint in &checkpoints {
             let own = cell(cells, checkpoint.at);
             if !own.is_empty() {
@@ -172,6 +178,18 @@ mod tests {
         assert_eq!(long.rows[3], ["V1", "Ritzel", "300000", "44.1"]);
         assert_eq!(long.rows[4], ["V1", "Rad", "60000", "6.3"]);
         assert_eq!(long.rows.len(), 5);
+        // the second member's cell below the test's is merged with it
+        let merged = Sheet::of_rows(&[
+            "Massenverlust [mg]",
+            "Versuch|Rad|60 000 LW|300.000 LW",
+            "V1|Ritzel|12.3|44.1",
+            "|Kunststoffrad|6.3|20.1",
+            "V2|Ritzel|13.3|45.1",
+            "|Kunststoffrad|7.3|21.1",
+        ]);
+        let long = checkpoints_across(&merged, None).unwrap();
+        assert_eq!(long.rows[4], ["V1", "Kunststoffrad", "60000", "6.3"]);
+        assert_eq!(long.rows[9], ["V2", "Kunststoffrad", "300000", "21.1"]);
         // the headers say what the values are, and each has its sigma beside it
         let own = Sheet::of_rows(&[
             "Prova|Elemento|Perdita 60000 cicli [g]|sd [mg]|Perdita 300000 cicli [g]|sd [mg]",

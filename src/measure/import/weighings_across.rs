@@ -1,6 +1,7 @@
 //! A row for each member with a column for each weighing: `Test | Member | Mass new [g] | Mass after 40000 cycles [g] | Mass after 100000 cycles [g]`;
 //! or one for each test, the weighings of both members side by side: `Test | Pinion m0 [g] | Pinion 40000 cycles [g] | Gear m0 [g] | Gear 40000 cycles [g]`.
 
+use super::arrange::merged;
 use super::checkpoints_across::count_and_rest;
 use super::{Sheet, columns, units};
 use crate::measure::names::{self, When};
@@ -20,6 +21,10 @@ pub fn weighings_across(sheet: &Sheet) -> Option<Sheet> {
     let is_weighing = |at: &usize| weighings.iter().any(|(column, ..)| column == at);
     let others: Vec<usize> = (0..header.len()).filter(|at| !is_weighing(at)).collect();
     let known = columns::columns(&header[..]);
+    let mut filled = sheet.clone();
+    for column in (known.iter()).filter(|column| column.what.own() == Some("test")) {
+        merged::fill_column(&mut filled, head, column.at);
+    }
     let names_members = known
         .iter()
         .any(|column| column.what.own() == Some("member"));
@@ -37,7 +42,7 @@ pub fn weighings_across(sheet: &Sheet) -> Option<Sheet> {
     let masses = ["before", "after"].map(|when| format!("mass {when}{unit}"));
     let mut rows: Vec<Vec<String>> = sheet.rows[..head].to_vec();
     rows.push([&cells_of(header)[..], &["cycles".to_owned()], &masses].concat());
-    for cells in sheet.rows[head + 1..].iter() {
+    for cells in filled.rows[head + 1..].iter() {
         let mass = |at: usize| cells.get(at).filter(|cell| !cell.is_empty());
         for (column, cycles, _) in &later {
             if let Some(worn) = mass(*column) {

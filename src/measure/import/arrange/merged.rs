@@ -19,11 +19,7 @@ pub(super) fn fill(sheet: &mut Sheet, head: usize, wanted: &Wanted<'_>) -> Vec<S
             continue;
         };
         for (row, value) in filled {
-            let cells = &mut sheet.rows[row];
-            if cells.len() <= column.at {
-                cells.resize(column.at + 1, String::new());
-            }
-            cells[column.at] = value;
+            put(sheet, row, column.at, value);
         }
         said.push(format!(
             "`{}`: empty cells hold the value above them",
@@ -31,6 +27,21 @@ pub(super) fn fill(sheet: &mut Sheet, head: usize, wanted: &Wanted<'_>) -> Vec<S
         ));
     }
     said
+}
+
+/// The same of one column of a table in which each row states all values of its test or member.
+pub(in crate::measure::import) fn fill_column(sheet: &mut Sheet, head: usize, at: usize) {
+    for (row, value) in with_values_above(sheet, head, at, None).unwrap_or_default() {
+        put(sheet, row, at, value);
+    }
+}
+
+fn put(sheet: &mut Sheet, row: usize, at: usize, value: String) {
+    let cells = &mut sheet.rows[row];
+    if cells.len() <= at {
+        cells.resize(at + 1, String::new());
+    }
+    cells[at] = value;
 }
 
 /// The rows with an empty cell in a column, each with the value above it. None where there are none, and where the cells do not look merged: nothing
