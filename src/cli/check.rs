@@ -109,7 +109,7 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
                 match judged.contact == study.contact {
                     true => "",
                     false =>
-                        "model:   analytic contact; gearwear compare fits by finite elements, and may find less amiss\n",
+                        "model:   analytic contact; gearwear compare fits by finite elements: it sees smaller slips, and what is off here by a little may be right there\n",
                 },
                 match (sanity.is_empty(), data.has_slips()) {
                     (false, _) =>

@@ -22,7 +22,7 @@ pub(super) fn measure_more(decided: Option<&Decided>, best: &RankedTest) -> Opti
 pub(super) fn with_trend(trend: Option<&str>) -> String {
     trend.map_or(String::new(), |trend| {
         format!(
-            "{trend}. A test that differs from one made already in nothing else would show whether it does. "
+            "{trend}. Tests that differ in nothing else show whether it does; where there are none yet, the next should. "
         )
     })
 }
@@ -281,7 +281,7 @@ mod tests {
         assert_eq!(measure_more(Some(&open), &little), None);
         assert_eq!(measure_more(None, &little), None);
         assert_eq!(with_trend(None), "");
-        assert!(with_trend(Some("k rises")).starts_with("k rises. A test that differs"));
+        assert!(with_trend(Some("k rises")).starts_with("k rises. Tests that differ"));
     }
 
     #[test]

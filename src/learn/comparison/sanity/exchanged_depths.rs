@@ -59,7 +59,7 @@ fn model_ratio(rows: &[FittedRow<'_>], test: usize) -> Option<f64> {
 }
 
 /// Root mean squares of a member's measured and computed depths about the mean of their profile.
-fn sizes(rows: &[FittedRow<'_>], test: usize, member: Subject) -> Option<(f64, f64)> {
+pub(super) fn sizes(rows: &[FittedRow<'_>], test: usize, member: Subject) -> Option<(f64, f64)> {
     let mut profiles: BTreeMap<_, Vec<[f64; 2]>> = BTreeMap::new();
     let is_own =
         |o: &Observation| (o.test, o.quantity, o.member) == (test, Quantity::WearDepth, member);
@@ -89,18 +89,20 @@ pub(super) fn of_one_test<'d>(rows: &[FittedRow<'d>], test: usize) -> Vec<Fitted
 
 /// ln of how much more the pinion's depths are the model's than the gear's; None without both.
 pub(super) fn of_test(rows: &[FittedRow<'_>], test: usize) -> Option<f64> {
-    let own = of_one_test(rows, test);
-    let of = |member| {
-        let found = scale(&own, Quantity::WearDepth, Some(member))?;
-        let factor = if found.explains > EXPLAINS && found.factor > 0.0 {
-            found.factor
-        } else {
-            let (measured, computed) = sizes(rows, test, member)?;
-            measured / computed
-        };
-        (factor > 0.0 && factor.is_finite()).then_some(factor)
-    };
+    let of = |member| factor(rows, test, member);
     Some((of(Subject::Pinion)? / of(Subject::Gear)?).ln())
+}
+
+/// How many times the model's a member's depths are; None without any.
+pub(super) fn factor(rows: &[FittedRow<'_>], test: usize, member: Subject) -> Option<f64> {
+    let found = scale(&of_one_test(rows, test), Quantity::WearDepth, Some(member))?;
+    let factor = if found.explains > EXPLAINS && found.factor > 0.0 {
+        found.factor
+    } else {
+        let (measured, computed) = sizes(rows, test, member)?;
+        measured / computed
+    };
+    (factor > 0.0 && factor.is_finite()).then_some(factor)
 }
 
 #[cfg(test)]

@@ -172,7 +172,7 @@ fn exchanged(study: &Study, parts: &[Part], off: &dyn Fn(&Part) -> f64) -> Optio
     let [more, less] = [one, other].map(|test| times(of(test).map(off)));
     Some(format!(
         "are the {} of tests {first} and {second} exchanged? The masses of {first} are {more} times what its depths make up, those of {second} {less} \
-         times, and either way round they fit",
+         times; exchanged, they fit",
         if masses { "masses" } else { "depths" },
     ))
 }
