@@ -9,7 +9,7 @@ use super::html::{Cell, Page, Section, Table};
 use super::{html, ladder};
 use crate::learn::climb::ClimbStep;
 use crate::learn::diagnose::{Diagnosis, Fidelity};
-use crate::learn::{self, Comparison, Version};
+use crate::learn::{self, Comparison, Share, Version};
 use crate::numeric::written::{capitalised, significant};
 
 /// All that `climb` shows.
@@ -163,7 +163,7 @@ pub fn page(result: &Result<'_>, study: &str) -> Page {
     let tried = Section::new("Steps").table(table).note(
         "χ² not fitted to: per point of the held-out tests or, where none is held out, of each fit test left out of the fit in turn. \
          An effect is kept if the evidence outweighs the prior odds against one more effect and this error does not rise beyond its \
-         standard error. Effects that the diagnosis cannot tell apart are all fitted, and of those that pay the one with the least such \
+         standard error, or the whole χ² by no more than 4. Effects that the diagnosis cannot tell apart are all fitted, and of those that pay the one with the least such \
          error is kept. After each step, effects that are no longer needed are taken out.",
     );
     let mut rest = Section::new("What remains")
@@ -187,14 +187,8 @@ pub fn page(result: &Result<'_>, study: &str) -> Page {
 /// What was found and what it is worth.
 fn conclusion(result: &Result<'_>) -> String {
     let error = |comparison: &Comparison| {
-        (comparison
-            .holdout
-            .chi2_per_point
-            .map(|chi2| (chi2, "held-out tests")))
-        .or(comparison
-            .fit
-            .chi2_per_point
-            .map(|chi2| (chi2, "the fit tests")))
+        let of = |share: &Share, of| Some((share.chi2_per_point?, share.points, of));
+        of(&comparison.holdout, "held-out tests").or(of(&comparison.fit, "the fit tests"))
     };
     let ends = [result.versions.first(), result.versions.last()];
     let [first, last] = ends.map(|end| end.and_then(|(_, comparison)| error(comparison)));
@@ -207,10 +201,9 @@ fn conclusion(result: &Result<'_>) -> String {
         found += &format!(" {}.", capitalised(choice));
     }
     let found = match (first, last) {
-        (Some((before, of)), Some((after, _))) if !result.effects.is_empty() => format!(
-            "{found} χ² per point of {of} falls from {} to {}; 1 is the noise floor.",
-            significant(before, 3),
-            significant(after, 3)
+        (Some((before, points, of)), Some((after, ..))) if !result.effects.is_empty() => format!(
+            "{found} χ² per point of {of} {}; 1 is the noise floor.",
+            change([before, after], points)
         ),
         _ => return found,
     };
@@ -224,6 +217,18 @@ fn conclusion(result: &Result<'_>) -> String {
             + " The held-out tests chose between effects that look alike, so their error is no independent proof: a further test is, and gearwear plan ranks such tests for the study without the effect."
     } else {
         found
+    }
+}
+
+/// How χ² per point of so many values changed, in words.
+fn change([before, after]: [f64; 2], points: usize) -> String {
+    let [from, to] = [before, after].map(|chi2| significant(chi2, 3));
+    match (from == to, after < before) {
+        (true, _) => format!("stays at {to}"),
+        (_, true) => format!("falls from {from} to {to}"),
+        (_, false) => {
+            format!("rises from {from} to {to}, no more than {points} values do by chance")
+        }
     }
 }
 
@@ -264,4 +269,19 @@ fn number(value: Option<f64>) -> String {
 fn gain(step: &ClimbStep) -> String {
     step.log_evidence_gain
         .map_or("–".to_owned(), |gain| format!("{gain:+.1}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_that_rises_is_not_said_to_fall() {
+        assert_eq!(change([30.9, 1.13], 200), "falls from 30.9 to 1.13");
+        assert_eq!(change([1.0, 1.001], 5), "stays at 1.00");
+        assert_eq!(
+            change([1.0, 1.691], 5),
+            "rises from 1.00 to 1.69, no more than 5 values do by chance"
+        );
+    }
 }

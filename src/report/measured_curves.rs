@@ -31,7 +31,7 @@ pub(super) fn section(left: &ResidualDrivers, is_established: bool) -> Option<Se
             if is_established {
                 ""
             } else {
-                ", which comes nearest of the catalogue and is not established"
+                ", the most probable of the catalogue, which is not established"
             }
         ),
         None => format!(

@@ -193,7 +193,7 @@ fn of_curves(
     }
 }
 
-/// Fits that did not converge, and parameters of the leader that are on a bound, known only together or of an unheard-of size.
+/// Fits that did not converge, and parameters of a leader that is spoken of which are on a bound, known only together or of an unheard-of size.
 fn of_fits(base: &BaseFit, posterior: &JudgedCandidates) -> Vec<String> {
     let mut warnings = Vec::new();
     if !base.fitted.converged {
@@ -209,15 +209,17 @@ fn of_fits(base: &BaseFit, posterior: &JudgedCandidates) -> Vec<String> {
             leader.converged,
             beside.map(|beside| beside.converged),
         ));
-        for p in parameters(leader).iter().filter(|p| p.at_bound) {
-            warnings.push(format!(
-                "{} of {} lies on its bound, {}",
-                p.name,
-                leader.candidate.hypothesis(),
-                short(p.value)
-            ));
+        if leads_alone(&posterior.decision).is_some() {
+            for p in parameters(leader).iter().filter(|p| p.at_bound) {
+                warnings.push(format!(
+                    "{} of {} lies on its bound, {}",
+                    p.name,
+                    leader.candidate.hypothesis(),
+                    short(p.value)
+                ));
+            }
+            warnings.extend(together(leader));
         }
-        warnings.extend(together(leader));
         warnings.extend(unsettled_form(posterior, leader));
         let decision = &posterior.decision;
         let probability = match decision.verdict {
