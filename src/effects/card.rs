@@ -201,6 +201,11 @@ impl Card {
         self.params.iter().map(|param| param.default).collect()
     }
 
+    /// Whether it is a wave along the flank with a phase of its own, of the profile or of the load: what follows anything smooth that differs along it.
+    pub fn is_wave_along_flank(&self) -> bool {
+        matches!(self.hook, Hook::Profile | Hook::LoadFactor) && self.has(ParamRole::WavePhase)
+    }
+
     /// Whether one of its parameters has a role.
     pub fn has(&self, role: ParamRole) -> bool {
         self.params.iter().any(|param| param.role == role)

@@ -16,8 +16,8 @@
 //! its own form (`OWN_FORM` in `likelihood`).
 
 pub use crate::learn::decision::{
-    CandidateEvidence, Decision, DecisionRule, Evidence, LawInsteadEvidence, RemainderEvidence,
-    Verdict, decide,
+    CandidateEvidence, Decision, DecisionRule, Evidence, LawBesideEvidence, LawInsteadEvidence,
+    RemainderEvidence, Verdict, decide,
 };
 pub use crate::learn::discrepancy::{
     BinMean, DRIVER_KINDS, DRIVERS, Driver, DriverBin, DriverKind, DriverRow, Explained, MapPoint,
@@ -51,7 +51,7 @@ use crate::learn::model_search::context::Context;
 use crate::learn::model_search::high_fidelity::decide_leaders;
 use crate::learn::model_search::stages::Stages;
 use crate::learn::model_search::{
-    learned_drivers, matching_pursuit, nested_forms, pairs, place_laws, time_laws,
+    laws_beside, learned_drivers, matching_pursuit, nested_forms, pairs, place_laws, time_laws,
 };
 use crate::learn::noise::{ModelError, NoiseModel};
 use crate::learn::prediction::bench::Workshop;
@@ -202,7 +202,7 @@ fn search(context: &Context<'_>, base: &BaseFit, workshop: &Workshop) -> Diagnos
         let beside = &discrepancy.effects;
         let of_time = time_laws::instead_of_slow_change(context, base, &fitted, beside);
         [
-            place_laws::instead_of_waves(context, base, &singles, &fitted),
+            place_laws::instead_of_leader(context, base, &fitted),
             of_time.into_iter().collect(),
         ]
     } else {
@@ -210,6 +210,8 @@ fn search(context: &Context<'_>, base: &BaseFit, workshop: &Workshop) -> Diagnos
     };
     let posterior =
         JudgedCandidates::new(likelihood, base, fitted, discrepancy, laws, &smooth, rule);
+    let laws = laws_beside::of(context, &posterior.undecided_beside_unknown());
+    let posterior = posterior.with_laws_beside(laws);
     let doing = "held-out tests and the next experiment".to_owned();
     stages.begin([EXPERIMENT, LAWS], doing, 1);
     let diagnosis = Diagnosis::new(Findings {

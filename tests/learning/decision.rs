@@ -5,8 +5,8 @@
 
 use gearwear::effects::CATALOGUE;
 use gearwear::learn::diagnose::{
-    CandidateEvidence, Decision, DecisionRule, EffectSet, Evidence, Hypothesis, LawInsteadEvidence,
-    RemainderEvidence, Verdict, decide,
+    CandidateEvidence, Decision, DecisionRule, EffectSet, Evidence, Hypothesis, LawBesideEvidence,
+    LawInsteadEvidence, RemainderEvidence, Verdict, decide,
 };
 use proptest::prelude::*;
 
@@ -35,6 +35,7 @@ fn evidence(candidates: Vec<CandidateEvidence>, attainable: f64, unknown: f64) -
         beside_unknown: Vec::new(),
         place_laws: Vec::new(),
         time_laws: Vec::new(),
+        laws_beside: Vec::new(),
     }
 }
 
@@ -86,6 +87,16 @@ fn place_law((waves, other, evidence_gain): (usize, usize, f64)) -> LawInsteadEv
     }
 }
 
+/// A law of the cycles beside the effect at this place of the catalogue: ln evidence of both, and what of it is the law's.
+fn law_beside((place, (evidence_gain, law_gain)): (usize, (f64, f64))) -> LawBesideEvidence {
+    LawBesideEvidence {
+        effects: EffectSet::new([CATALOGUE[place]]),
+        law: "learned:cycles".to_owned(),
+        evidence_gain,
+        law_gain,
+    }
+}
+
 prop_compose! {
     fn any_evidence()(
         candidates in prop::collection::vec(any_candidate(), 1..30),
@@ -94,6 +105,7 @@ prop_compose! {
         remainders in prop::collection::btree_map(0..CATALOGUE.len(), (-5.0..300.0_f64, 0.0..1.0_f64), 0..=6),
         laws in prop::collection::vec((0..CATALOGUE.len(), 0..CATALOGUE.len(), -5.0..3000.0_f64), 0..=2),
         times in prop::collection::vec((0..CATALOGUE.len(), 0..CATALOGUE.len(), -5.0..3000.0_f64), 0..=1),
+        laws_beside in prop::collection::btree_map(0..CATALOGUE.len(), (0.0..3000.0_f64, -5.0..3000.0_f64), 0..=3),
     ) -> Evidence {
         let of = |(place, (gain, left)): (usize, (f64, f64))| {
             beside(place, gain, attainable * (1.0 - left), attainable * left)
@@ -101,6 +113,7 @@ prop_compose! {
         Evidence {
             beside_unknown: remainders.into_iter().map(of).collect(),
             time_laws: times.into_iter().map(place_law).collect(),
+            laws_beside: laws_beside.into_iter().map(law_beside).collect(),
             place_laws: laws.into_iter().map(place_law).collect(),
             ..evidence(candidates, attainable, unknown)
         }
@@ -721,6 +734,85 @@ fn what_acts_by_its_place_is_no_profile_where_a_factor_on_k_is_more_probable() {
     // without debris too, as probable as with it: then debris is not established
     let alone = with(vec![law(&[], 246.0), law(&[debris], 248.0)]);
     assert_eq!(alone.verdict, Verdict::Unknown, "{alone:?}");
+}
+
+/// A starved band that two effects follow together, each of which differs along the flank: a factor on k by the place does what both do, and is one cause.
+#[test]
+fn what_acts_by_its_place_is_no_pair_where_a_factor_on_k_is_more_probable() {
+    let set = |places: &[usize]| EffectSet::new(places.iter().map(|&p| CATALOGUE[p]));
+    let with = |law: Option<f64>| {
+        let law = law.map(|evidence_gain| LawInsteadEvidence {
+            beside: set(&[]),
+            instead_of: set(&[0, 1]),
+            law: "learned:s".to_owned(),
+            evidence_gain,
+        });
+        decided(&Evidence {
+            place_laws: law.into_iter().collect(),
+            ..evidence(
+                vec![
+                    candidate(&[0, 1], 60.0, 150.0),
+                    candidate(&[0], 25.0, 75.0),
+                    candidate(&[1], 20.0, 65.0),
+                ],
+                152.0,
+                50.0,
+            )
+        })
+    };
+    let pair = Some(set(&[0, 1]));
+    for behind in [None, Some(40.0)] {
+        let named = with(behind);
+        assert_eq!(named.verdict, Verdict::Effects, "{named:?}");
+        assert_eq!(named.leader(), pair.as_ref());
+    }
+    assert_eq!(with(Some(63.0)).verdict, Verdict::Unknown);
+}
+
+/// A humidity that comes and goes beside a factor on the approach: a discrepancy takes most of both, and is as good beside running-in, which is not there. A
+/// factor on k by the cycles comes near the noise beside the one, not beside the other.
+#[test]
+fn laws_beside_effects_tell_which_is_there() {
+    let [running_in, approach] = ["running_in", "approach_recess"].map(place);
+    let with = |laws: Vec<LawBesideEvidence>| {
+        decided(&Evidence {
+            beside_unknown: vec![
+                beside(running_in, 20.0, 57.0, 1364.0),
+                beside(approach, 19.0, 555.0, 880.0),
+            ],
+            laws_beside: laws,
+            ..evidence(
+                vec![
+                    candidate(&[approach], 270.0, 555.0),
+                    candidate(&[running_in], 20.0, 57.0),
+                ],
+                1421.0,
+                710.0,
+            )
+        })
+    };
+    let group = |names: &[usize]| -> Vec<Hypothesis> {
+        let alone = |&n: &usize| Hypothesis::EffectsAndUnknown(EffectSet::new([CATALOGUE[n]]));
+        names.iter().map(alone).collect()
+    };
+    let open = with(Vec::new());
+    assert_eq!(open.verdict, Verdict::Partial, "{open:?}");
+    assert_eq!(open.group, group(&[running_in, approach]));
+    let laws = |of_approach, of_running_in| {
+        vec![
+            law_beside((approach, of_approach)),
+            law_beside((running_in, of_running_in)),
+        ]
+    };
+    let told = with(laws((400.0, 600.0), (0.0, 450.0)));
+    assert_eq!(told.verdict, Verdict::Partial, "{told:?}");
+    assert_eq!(told.group, group(&[approach]));
+    // nothing else changes: neither what is unknown alone, nor what they have together
+    for hypothesis in [Hypothesis::Unknown, Hypothesis::NothingMissing] {
+        assert_eq!(told.probability(&hypothesis), open.probability(&hypothesis));
+    }
+    // a law that does little of what a discrepancy does stands for nothing
+    assert_eq!(with(laws((400.0, 100.0), (0.0, 20.0))).group, open.group);
 }
 
 /// The weaker effect of a pair that adds next to nothing mends the form of the stronger one, which is named alone.

@@ -29,6 +29,22 @@ pub struct Evidence {
     /// Free factors on k by the time, fitted instead of an effect that leads and changes k over time alone; none where none does, or it leaves nothing.
     #[serde(default)]
     pub time_laws: Vec<LawInsteadEvidence>,
+    /// Free factors on k beside each of several effects that something unknown stands beside; none where one of them is established without.
+    #[serde(default)]
+    pub laws_beside: Vec<LawBesideEvidence>,
+}
+
+/// A factor on k as a free smooth function of one variable, fitted beside an effect as what nobody knows.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LawBesideEvidence {
+    /// The effect.
+    pub effects: EffectSet,
+    /// The best law of the place or the time, such as `learned:cycles`.
+    pub law: String,
+    /// ln Z(effect and law) over the smallest of these by coarse finite elements.
+    pub evidence_gain: f64,
+    /// ln Z(effect and law) − ln Z(effect) by the same.
+    pub law_gain: f64,
 }
 
 /// A factor on k as a free smooth function of one variable, fitted instead of an effect.

@@ -1,6 +1,8 @@
 //! All fitted candidates with what the decision says of them.
 
-use super::evidence::{CandidateEvidence, Evidence, LawInsteadEvidence, RemainderEvidence};
+use super::evidence::{
+    CandidateEvidence, Evidence, LawBesideEvidence, LawInsteadEvidence, RemainderEvidence,
+};
 use super::rule::DecisionRule;
 use super::verdict::{Decision, decide};
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
@@ -10,6 +12,10 @@ use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
 use crate::learn::model_search::beside_unknown::{BesideUnknown, WithDiscrepancy};
 use crate::learn::model_search::law_instead::LawInstead;
+use crate::learn::model_search::laws_beside::LawBeside;
+
+/// Effects beside something unknown that laws beside each tell apart, at the most.
+const LAWS_BESIDE: usize = 2;
 
 /// Everything fitted, and the decision on it.
 pub(in crate::learn) struct JudgedCandidates {
@@ -61,6 +67,7 @@ impl JudgedCandidates {
                 .collect(),
             place_laws: place_laws.into_iter().map(instead).collect(),
             time_laws: time_laws.into_iter().map(instead).collect(),
+            laws_beside: Vec::new(),
         };
         Self {
             decision: decide(&evidence, &rule),
@@ -69,6 +76,42 @@ impl JudgedCandidates {
             evidence,
             rule,
         }
+    }
+
+    /// The effects beside something unknown of which none is established, the most probable first; none where one is, or all are improbable.
+    pub(in crate::learn) fn undecided_beside_unknown(&self) -> Vec<&BesideUnknown> {
+        let probability = |beside: &&BesideUnknown| {
+            let effects = beside.fitted.candidate.effects.clone();
+            self.decision
+                .probability(&Hypothesis::EffectsAndUnknown(effects))
+        };
+        let mut all: Vec<(f64, &BesideUnknown)> = (self.beside_unknown.iter())
+            .map(|beside| (probability(&beside), beside))
+            .collect();
+        all.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let together: f64 = all.iter().map(|(p, _)| p).sum();
+        let first = all.first().map_or(0.0, |(p, _)| *p);
+        if together < self.rule.doubt || first >= self.rule.claim * together {
+            return Vec::new();
+        }
+        let alike = all.into_iter().take(LAWS_BESIDE);
+        let alike = alike.filter(|(p, _)| *p > self.rule.alike * first);
+        alike.map(|(_, beside)| beside).collect()
+    }
+
+    /// The decision with laws beside the effects that something unknown stands beside.
+    pub(in crate::learn) fn with_laws_beside(mut self, laws: Vec<LawBeside>) -> Self {
+        let log_evidence = laws.iter().map(|law| law.log_evidence);
+        let least = log_evidence.fold(f64::INFINITY, f64::min);
+        let figures = |law: LawBeside| LawBesideEvidence {
+            effects: law.effects,
+            law: law.name,
+            evidence_gain: law.log_evidence - least,
+            law_gain: law.gain,
+        };
+        self.evidence.laws_beside = laws.into_iter().map(figures).collect();
+        self.decision = decide(&self.evidence, &self.rule);
+        self
     }
 
     /// The form of effects with the largest evidence.

@@ -6,7 +6,9 @@ mod posterior;
 mod rule;
 mod verdict;
 
-pub use evidence::{CandidateEvidence, Evidence, LawInsteadEvidence, RemainderEvidence};
+pub use evidence::{
+    CandidateEvidence, Evidence, LawBesideEvidence, LawInsteadEvidence, RemainderEvidence,
+};
 pub use rule::DecisionRule;
 pub(in crate::learn) use rule::SURE;
 pub use verdict::{Decision, Verdict, decide};

@@ -37,7 +37,8 @@
 //! both gain nothing); of a free shape's part, of which o/(1 + o) would be unknown's, that goes to the other one.
 //!
 //! A sum of waves along the profile follows whatever acts by its place on the flank, and a profile wears away where a factor on k at that place does not.
-//! Of what is a form's own that holds such waves, a law of the place fitted instead of them takes its part, and what it stands beside (R, or nothing) is
+//! A load in waves changes with the speed, and two effects that differ along the flank follow together what neither does alone.
+//! Of what is a form's own that holds such waves, or such a pair, a law of the place fitted instead takes its part, and what it stands beside (R, or nothing) is
 //! then beside something unknown. The odds of a law alone are those of something unknown alone to one effect beside it:
 //!
 //! ```text
@@ -46,19 +47,30 @@
 //! An effect that changes k over time alone follows any slow change of k in part. Where it leads and leaves something, a law of the time fitted instead
 //! of it takes its part likewise, ε Δ ln Z_c less for another form of the effect.
 //!
+//! Where several R are left that way, the best law of the place or the time beside each, by coarse finite elements, tells them apart, if beside the best R it does at least half of what a
+//! discrepancy does. They share what they have together in proportion to
+//!
+//! ```text
+//! exp(ln Z(R and law)/T) o_R/n
+//! ```
 //! Δ ln Z_R is the smaller of two figures: with the discrepancy that is most probable without the effect, and with every kind and size of it. By the
 //! first the discrepancy has taken what it can of the effect already, by the second anything that mends the discrepancy is an effect. The share w of
 //! R among the named is the mean of what both give, e^(Δ ln Z_R/T) over its sum, where both are above 0.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::evidence::{CandidateEvidence, Evidence, LawInsteadEvidence, RemainderEvidence};
+use super::evidence::{
+    CandidateEvidence, Evidence, LawBesideEvidence, LawInsteadEvidence, RemainderEvidence,
+};
 use super::rule::DecisionRule;
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
 use crate::numeric::logarithm::{log_sum_exp, softplus};
 
 /// Fall of χ² by which another form of an effect may be behind and leave as much.
 const LEAVES_AS_MUCH: f64 = 1.0;
+
+/// Share of what a discrepancy gains beside an effect from which a law beside it stands for what is unknown.
+const LAW_IS_ENOUGH: f64 = 0.5;
 
 /// Gain of ln evidence beside something unknown below which effects gain alike.
 const LEAST_GAIN: f64 = 1.0;
@@ -142,6 +154,7 @@ pub(super) fn log_probabilities(
         .map(|(hypothesis, logs)| (hypothesis, log_sum_exp(&logs)))
         .collect();
     share_with_remainders(&mut logs, evidence, rule, [count, pairs]);
+    share_by_laws(&mut logs, evidence, rule);
     let unknown = [logs[&Hypothesis::Unknown], log_sum_exp(&other_causes)];
     logs.insert(Hypothesis::Unknown, log_sum_exp(&unknown));
     for (hypothesis, log) in by_place {
@@ -254,6 +267,33 @@ fn share_with_remainders(
         }
         let beside = log_sum_exp(&beside);
         logs.insert(Hypothesis::EffectsAndUnknown(r.effects.clone()), beside);
+    }
+}
+
+/// Shares what effects beside something unknown have together by the laws that were fitted beside each, if these do much of what a discrepancy does.
+fn share_by_laws(logs: &mut BTreeMap<Hypothesis, f64>, evidence: &Evidence, rule: &DecisionRule) {
+    let mut laws: Vec<(Hypothesis, &LawBesideEvidence)> = (evidence.laws_beside.iter())
+        .map(|law| (Hypothesis::EffectsAndUnknown(law.effects.clone()), law))
+        .filter(|(hypothesis, _)| logs.contains_key(hypothesis))
+        .collect();
+    laws.sort_by(|a, b| a.1.effects.cmp(&b.1.effects));
+    let by_gain = |a: &&LawBesideEvidence, b: &&LawBesideEvidence| {
+        a.evidence_gain.total_cmp(&b.evidence_gain)
+    };
+    let Some(best) = laws.iter().map(|(_, law)| *law).max_by(by_gain) else {
+        return;
+    };
+    let own = (evidence.beside_unknown.iter()).find(|r| r.effects == best.effects);
+    if own.is_none_or(|r| best.law_gain < LAW_IS_ENOUGH * r.remainder_gain) {
+        return;
+    }
+    let together = log_sum_exp(&laws.iter().map(|(h, _)| logs[h]).collect::<Vec<_>>());
+    let weights: Vec<f64> = (laws.iter())
+        .map(|(_, law)| law.evidence_gain / rule.temper)
+        .collect();
+    let all = log_sum_exp(&weights);
+    for ((hypothesis, _), weight) in laws.into_iter().zip(weights) {
+        logs.insert(hypothesis, together + weight - all);
     }
 }
 

@@ -14,7 +14,7 @@ use crate::learn::checks::goodness_of_fit::GoodnessOfFit;
 use crate::learn::checks::sufficiency::few;
 use crate::learn::decision::judged_candidates::JudgedCandidates;
 use crate::learn::decision::{
-    Decision, DecisionRule, LawInsteadEvidence, RemainderEvidence, SURE, Verdict,
+    Decision, DecisionRule, LawBesideEvidence, LawInsteadEvidence, RemainderEvidence, SURE, Verdict,
 };
 use crate::learn::discrepancy::dependence::{self, Driver};
 use crate::learn::discrepancy::residual_drivers::{self, ResidualDrivers};
@@ -101,6 +101,9 @@ pub struct Diagnosis {
     /// Factors on k by the time, fitted instead of an effect that leads and changes k over time alone.
     #[serde(default)]
     pub time_laws: Vec<LawInsteadEvidence>,
+    /// Free factors on k beside each of several effects that something unknown stands beside; none where one of them is established without.
+    #[serde(default)]
+    pub laws_beside: Vec<LawBesideEvidence>,
     /// The thresholds by which this was decided.
     pub rule: DecisionRule,
     /// Whether effects are named, if only as a group, of which the first leaves no more than noise, or than the analytic model's own error where that decides in
@@ -247,6 +250,7 @@ impl Diagnosis {
             beside_unknown: posterior.evidence.beside_unknown.clone(),
             place_laws: posterior.evidence.place_laws.clone(),
             time_laws: posterior.evidence.time_laws.clone(),
+            laws_beside: posterior.evidence.laws_beside.clone(),
             rule: posterior.rule,
             warnings: warnings(context, base, posterior, &findings.not_fitted),
             sparse_regression: names(findings.sparse_regression),

@@ -1,12 +1,17 @@
-//! Why a sum of waves along the profile is not taken for what acts by its place on the flank, and an effect that grows for any change over time.
+//! Why a sum of waves along the profile, a load in waves or a pair is not taken for what acts by its place on the flank, and an effect that grows for any change over time.
 
 use super::findings::Findings;
-use crate::effects::variables;
-use crate::learn::decision::{CandidateEvidence, LawInsteadEvidence, Verdict};
+use crate::effects::{Hook, variables};
+use crate::learn::decision::{CandidateEvidence, LawBesideEvidence, LawInsteadEvidence, Verdict};
+use crate::learn::hypothesis::Hypothesis;
 
 /// ln evidence by which a law must be ahead to be spoken of.
 const AHEAD: f64 = 1.0;
 
+/// Why a pair is not, in which nothing is a deviation of the profile.
+const BOTH: &str = "one cause that stays at its place does what the two do together";
+/// Why a load in waves is not.
+const LOAD: &str = "a load in waves changes with the speed, what acts there does not";
 /// Why waves are not named, whose deviation of the profile would wear away.
 const WAVES: &str = "a deviation of the profile wears away, what acts there does not";
 /// Why an effect that changes k over time alone is not.
@@ -23,7 +28,16 @@ pub(super) fn instead(findings: &Findings<'_>) -> Vec<String> {
     }
     let evidence = &findings.posterior.evidence;
     let of = |laws: &[LawInsteadEvidence], why| instead_of_effect(laws, why, &evidence.candidates);
-    (of(&evidence.place_laws, WAVES).into_iter())
+    let replaced = evidence
+        .place_laws
+        .first()
+        .map(|law| law.instead_of.single());
+    let of_places = match replaced {
+        Some(Some(card)) if card.hook == Hook::LoadFactor => LOAD,
+        Some(None) => BOTH,
+        _ => WAVES,
+    };
+    (of(&evidence.place_laws, of_places).into_iter())
         .chain(of(&evidence.time_laws, SLOW_CHANGE))
         .collect()
 }
@@ -52,19 +66,55 @@ fn sentence(
     (ahead, why): (f64, &str),
 ) -> String {
     let replaced = law.instead_of.in_words();
-    let driver = law.law.split(':').nth(1).unwrap_or_default();
-    let meaning = variables::find(driver).map_or(driver, |v| v.meaning);
-    // which way it counts is told elsewhere
-    let meaning = meaning.split(',').next().unwrap_or(meaning);
+    let meaning = meaning(&law.law);
     let beside = match law.beside.is_empty() {
         true => String::new(),
         false => format!(" beside {}", law.beside.in_words()),
     };
+    let verb = match law.instead_of.single() {
+        Some(_) => "is",
+        None => "are",
+    };
     format!(
         "A fit with {} is nearly as good, but a free factor on k by the {meaning} ({}){beside} has {ahead:.0} more of ln evidence: {why}. So \
-         {replaced} is not named.",
+         {replaced} {verb} not named.",
         best.effects.in_words(),
         law.law
+    )
+}
+
+/// What the variable of a law is.
+fn meaning(law: &str) -> &str {
+    let driver = law.split(':').nth(1).unwrap_or_default();
+    let meaning = variables::find(driver).map_or(driver, |v| v.meaning);
+    // which way it counts is told elsewhere
+    meaning.split(',').next().unwrap_or(meaning)
+}
+
+/// Why one effect rather than others stands beside something unknown, where laws beside each told that; none where they did not.
+pub(super) fn beside(findings: &Findings<'_>) -> Option<String> {
+    let posterior = findings.posterior;
+    let first = posterior.decision.group.first()?;
+    let mut laws: Vec<&LawBesideEvidence> = posterior.evidence.laws_beside.iter().collect();
+    laws.sort_by(|a, b| b.evidence_gain.total_cmp(&a.evidence_gain));
+    let [best, others @ ..] = &laws[..] else {
+        return None;
+    };
+    let next = others.first()?;
+    let ahead = best.evidence_gain - next.evidence_gain;
+    (ahead > AHEAD && *first == Hypothesis::EffectsAndUnknown(best.effects.clone()))
+        .then(|| sentence_beside(best, others, ahead))
+}
+
+fn sentence_beside(best: &LawBesideEvidence, others: &[&LawBesideEvidence], ahead: f64) -> String {
+    let names: Vec<String> = others.iter().map(|law| law.effects.in_words()).collect();
+    format!(
+        "Beside {0} a free factor on k by the {1} ({2}) has {ahead:.0} more of ln evidence, by coarse elements, than any such factor beside {3}: so \
+         {0} comes first.",
+        best.effects.in_words(),
+        meaning(&best.law),
+        best.law,
+        names.join(" or "),
     )
 }
 

@@ -43,6 +43,7 @@ impl Explanation {
             );
         }
         all.reasons.extend(laws_instead::instead(findings));
+        all.reasons.extend(laws_instead::beside(findings));
         if let Some(driver) = driver {
             let is_explained = matches!(decision.verdict, Verdict::Effect | Verdict::Effects);
             all.reasons.extend(depends_on(driver, is_explained));

@@ -163,7 +163,7 @@ pub(in crate::learn) fn learned_driver(
     let closely = brought_forward(&mut screened.laws, |(law, _)| {
         follows.is_some_and(|driver| is_of(law.driver.name, driver))
     });
-    let decided = decided(context, known, &screened, closely)?;
+    let decided = decided(context.exact, context, known, &screened, closely)?;
     let others = decided.others(1).chain(screened.others(closely)).collect();
     answer(context, &decided, others)
 }
@@ -193,15 +193,51 @@ pub(in crate::learn) fn best_of(
     known: &FittedCandidate,
     drivers: &[&str],
 ) -> Option<(String, f64)> {
+    best_of_worth(context, known, drivers, f64::NEG_INFINITY)
+}
+
+/// The same, None also where no law gains at `least` so much by the analytic model: finite elements are then not asked.
+pub(in crate::learn) fn best_of_worth(
+    context: &Context<'_>,
+    known: &FittedCandidate,
+    drivers: &[&str],
+    least: f64,
+) -> Option<(String, f64)> {
     let screened = screened(context, known, drivers, OF_ONE_KIND_CLOSELY)?;
+    let (_, first) = screened.laws.first()?;
+    if screened.gain(first) < least {
+        return None;
+    }
     let own = context.fidelity == Fidelity::Screening;
     let ranked = if own {
         screened
     } else {
-        decided(context, known, &screened, OF_ONE_KIND_CLOSELY)?
+        decided(
+            context.exact,
+            context,
+            known,
+            &screened,
+            OF_ONE_KIND_CLOSELY,
+        )?
     };
     let answer = answer(context, &ranked, Vec::new())?;
     Some((answer.name, answer.evidence_gain))
+}
+
+/// Of the best law of the place and the best of the time by the analytic model the one that has the greater evidence beside what is `known` by coarse
+/// finite elements, that evidence, and its gain over the same without it.
+pub(in crate::learn) fn place_or_time(
+    context: &Context<'_>,
+    known: &FittedCandidate,
+) -> Option<(String, f64, f64)> {
+    let of_kind = |drivers: &&[&str]| {
+        let screened = screened(context, known, drivers, 1)?;
+        let ranked = decided(context.middle, context, known, &screened, 1)?;
+        let (law, best) = ranked.laws.first()?;
+        Some((law.name(), best.log_evidence, ranked.gain(best)))
+    };
+    let best = [PLACES, TIMES].par_iter().filter_map(of_kind);
+    best.max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// Each of these drivers by the analytic model, the best few with every size and length of the process.
@@ -249,14 +285,15 @@ fn screened(
     Some(FittedLaws { laws, ..closer })
 }
 
-/// The best few by the model that decides; None where none of them can be fitted by it.
+/// The best few by a finer model; None where none of them can be fitted by it.
 fn decided(
+    bench: &Bench<'_>,
     context: &Context<'_>,
     known: &FittedCandidate,
     screened: &FittedLaws,
     closely: usize,
 ) -> Option<FittedLaws> {
-    let (bench, noise) = (context.exact, context.likelihood.noise);
+    let noise = context.likelihood.noise;
     let (measured, version) = (context.likelihood.measured, &known.candidate.version);
     let without = without(context, known, bench, noise)?;
     let again = |(law, found): &(WantedLaw, LearnedFit)| {

@@ -10,6 +10,7 @@ mod changes_alone;
 pub(in crate::learn) mod context;
 pub(in crate::learn) mod high_fidelity;
 pub(in crate::learn) mod law_instead;
+pub(in crate::learn) mod laws_beside;
 pub(in crate::learn) mod learned_drivers;
 pub(in crate::learn) mod matching_pursuit;
 mod medium_fidelity;

@@ -72,3 +72,32 @@ fn waves_alone_are_no_effect_of_the_catalogue() {
     assert_eq!(found.verdict, Verdict::Unknown, "{:?}", found.probabilities);
     assert!(found.remainder.is_none());
 }
+
+/// A factor on the approach beside a k that rises and falls with the weather: a discrepancy of the results follows most of both, and leaves running-in, which is
+/// not there, nearly as much as the effect that is. Beside that one a free factor on k by the cycles does more.
+#[test]
+fn an_effect_beside_the_weather_is_told_by_laws_beside_it() {
+    let approach = "[[effect]]\nkind = \"approach_recess\"\nasymmetry = 0.07\n";
+    let weather = "[[effect]]\nkind = \"formula\"\nname = \"weather\"\nwear_factor = \"1 + 0.5*sin(2*pi*cycles/6e5 + 2)\"\n";
+    let found = diagnosed(&format!("{approach}\n{weather}"), 0.05, 0.02, 33);
+    let gain = |name: &str| {
+        let all = &found.beside_unknown;
+        let own = all.iter().find(|b| b.effects.to_string() == name);
+        own.map(|b| b.gain_over_unknown).unwrap()
+    };
+    let [there, not_there] = ["approach_recess", "running_in"];
+    assert!((gain(there) - gain(not_there)).abs() < 5.0);
+    let by_laws = &found.laws_beside;
+    let of = |name: &str| {
+        let own = by_laws.iter().find(|l| l.effects.to_string() == name);
+        own.unwrap_or_else(|| panic!("{name}: {by_laws:?}"))
+    };
+    assert_eq!(of(there).law, "learned:cycles");
+    assert!(of(there).evidence_gain > of(not_there).evidence_gain + 10.0);
+    let beside = |name: &str| found.probabilities[&format!("{name}+unknown")];
+    assert!(
+        beside(there) > 100.0 * beside(not_there),
+        "{:?}",
+        found.probabilities
+    );
+}
