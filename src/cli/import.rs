@@ -144,7 +144,7 @@ fn parts(table: &Path, sheet: &Sheet, wanted: &Wanted<'_>) -> Vec<(String, Sheet
             let table = import::weighings_across(sheet)
                 .or_else(|| import::checkpoints_across(sheet, wanted.quantity));
             if table.is_some() {
-                name += " (cells counted as with a row for each value)";
+                name += " (read as a row for each value; cells are counted so)";
             }
             vec![(name, table.unwrap_or_else(|| sheet.clone()))]
         }

@@ -17,6 +17,8 @@ pub struct Sheet {
     pub without_result: Option<String>,
     /// Whether `1.234` can only be one and a bit: numbers of a spreadsheet, and texts with commas between columns.
     pub plain_decimals: bool,
+    /// What was made of its cells before it is read, in words.
+    pub said: Vec<String>,
 }
 
 impl Sheet {
@@ -124,6 +126,7 @@ fn of_text(text: &str) -> Sheet {
         rows: rows.collect(),
         without_result: None,
         plain_decimals: separator == b',',
+        said: Vec::new(),
     }
 }
 
@@ -160,6 +163,7 @@ impl Sheet {
             rows: rows.iter().map(cells).collect(),
             without_result: None,
             plain_decimals: true,
+            said: Vec::new(),
         }
     }
 }

@@ -53,11 +53,7 @@ pub fn checkpoints_across(sheet: &Sheet, asked: Option<Quantity>) -> Option<Shee
         return None;
     }
     let value = value(&sheet.rows[..head], &checkpoints, asked)?;
-    // below, each row becomes several, of which all state its test
-    let mut filled = sheet.clone();
-    for column in (others.iter()).filter(|column| column.what.own() == Some("test")) {
-        merged::fill_column(&mut filled, head, column.at);
-    }
+    let filled = merged::with_tests_filled(sheet, head);
     let cell = |cells: &[String], at: usize| cells.get(at).cloned().unwrap_or_default();
     let whose = |cells: &[String]| -> Vec<String> {
         others.iter().map(|column| cell(cells, column.at)).collect()
@@ -79,10 +75,7 @@ pub fn checkpoints_across(sheet: &Sheet, asked: Option<Quantity>) -> Option<Shee
             }
         }
     }
-    Some(Sheet {
-        rows,
-        ..sheet.clone()
-    })
+    Some(Sheet { rows, ..filled })
 }
 
 /// The name of the values' column: what a row above the header says they are, or the headers themselves, or else what is asked for, with the unit of the headers.
@@ -190,6 +183,10 @@ mod tests {
         let long = checkpoints_across(&merged, None).unwrap();
         assert_eq!(long.rows[4], ["V1", "Kunststoffrad", "60000", "6.3"]);
         assert_eq!(long.rows[9], ["V2", "Kunststoffrad", "300000", "21.1"]);
+        assert_eq!(
+            long.said,
+            ["`Versuch`: empty cells hold the value above them"]
+        );
         // the headers say what the values are, and each has its sigma beside it
         let own = Sheet::of_rows(&[
             "Prova|Elemento|Perdita 60000 cicli [g]|sd [mg]|Perdita 300000 cicli [g]|sd [mg]",

@@ -73,6 +73,7 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
             "{cell}: a formula without a stored result: open the table in the spreadsheet program and save it, then its results stand in the file"
         )));
     }
+    let before = sheet.said.clone();
     let (sheet, between) = second_header::merged(sheet)?;
     let (sheets, teeth) = match teeth_across::apart(&sheet) {
         Some((sheets, said)) => (sheets, Some(said)),
@@ -82,7 +83,7 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
     let tables: Option<Vec<Long>> = tables.collect::<Result<_>>()?;
     let joined = tables.and_then(|tables| tables.into_iter().reduce(Long::joined));
     Ok(joined.map(|long| Long {
-        arranged: [between, teeth.into_iter().collect(), long.arranged].concat(),
+        arranged: [before, between, teeth.into_iter().collect(), long.arranged].concat(),
         ..long
     }))
 }

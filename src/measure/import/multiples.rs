@@ -316,6 +316,7 @@ mod tests {
             ],
             without_result: None,
             plain_decimals: false,
+            said: Vec::new(),
         };
         assert!(in_each_header(&of("40.000 Tsd.")).is_err());
         assert!(in_each_header(&of("40 Tsd.")).is_ok());

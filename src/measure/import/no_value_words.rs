@@ -65,6 +65,7 @@ mod tests {
             ],
             without_result: None,
             plain_decimals: false,
+            said: Vec::new(),
         };
         let (plain, said) = without_words(&sheet, &[]);
         assert_eq!(plain.rows[0], sheet.rows[0]);

@@ -142,6 +142,7 @@ mod tests {
             rows: rows.map(|row| row.map(str::to_owned).to_vec()).to_vec(),
             without_result: None,
             plain_decimals: true,
+            said: Vec::new(),
         };
         let header = ["r", "1e5", "2e5", "std"];
         // 1 and 3: 1.414 of a sample, 1 of all

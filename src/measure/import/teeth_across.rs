@@ -72,6 +72,7 @@ mod tests {
                 .collect(),
             without_result: None,
             plain_decimals: false,
+            said: Vec::new(),
         }
     }
 

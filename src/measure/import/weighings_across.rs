@@ -21,10 +21,7 @@ pub fn weighings_across(sheet: &Sheet) -> Option<Sheet> {
     let is_weighing = |at: &usize| weighings.iter().any(|(column, ..)| column == at);
     let others: Vec<usize> = (0..header.len()).filter(|at| !is_weighing(at)).collect();
     let known = columns::columns(&header[..]);
-    let mut filled = sheet.clone();
-    for column in (known.iter()).filter(|column| column.what.own() == Some("test")) {
-        merged::fill_column(&mut filled, head, column.at);
-    }
+    let filled = merged::with_tests_filled(sheet, head);
     let names_members = known
         .iter()
         .any(|column| column.what.own() == Some("member"));
@@ -51,10 +48,7 @@ pub fn weighings_across(sheet: &Sheet) -> Option<Sheet> {
             }
         }
     }
-    Some(Sheet {
-        rows,
-        ..sheet.clone()
-    })
+    Some(Sheet { rows, ..filled })
 }
 
 /// A row for each member in place of one for each test whose weighings of both stand side by side; none for other sheets.

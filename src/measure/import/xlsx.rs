@@ -59,6 +59,7 @@ pub(super) fn sheets(bytes: &[u8]) -> Result<Vec<Sheet>> {
             rows: rows(&cells, &shared, &dates)?,
             without_result: without_result(&cells),
             plain_decimals: true,
+            said: Vec::new(),
         })
     });
     sheets.collect()

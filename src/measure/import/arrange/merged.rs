@@ -1,6 +1,6 @@
 //! Merged cells of a long table: the test or the member stands in the first row of a block alone, and the rows below it are of the same.
 
-use super::super::columns::{columns, known_by_content};
+use super::super::columns::{Column, columns, known_by_content};
 use super::super::{Sheet, Wanted};
 
 /// Fills the empty cells of the columns of tests and members below a header with what stands above them, and says of which columns.
@@ -21,19 +21,33 @@ pub(super) fn fill(sheet: &mut Sheet, head: usize, wanted: &Wanted<'_>) -> Vec<S
         for (row, value) in filled {
             put(sheet, row, column.at, value);
         }
-        said.push(format!(
-            "`{}`: empty cells hold the value above them",
-            column.written
-        ));
+        said.push(said_of(column));
     }
     said
 }
 
-/// The same of one column of a table in which each row states all values of its test or member.
-pub(in crate::measure::import) fn fill_column(sheet: &mut Sheet, head: usize, at: usize) {
-    for (row, value) in with_values_above(sheet, head, at, None).unwrap_or_default() {
-        put(sheet, row, at, value);
+/// The same of the tests of a table in which each row will become several, of which all state their test.
+pub(in crate::measure::import) fn with_tests_filled(sheet: &Sheet, head: usize) -> Sheet {
+    let mut filled = sheet.clone();
+    for column in columns(&sheet.rows[head]) {
+        let of_tests = Some(column.at).filter(|_| column.what.own() == Some("test"));
+        let Some(values) = of_tests.and_then(|at| with_values_above(sheet, head, at, None)) else {
+            continue;
+        };
+        for (row, value) in values {
+            put(&mut filled, row, column.at, value);
+        }
+        filled.said.push(said_of(&column));
     }
+    filled
+}
+
+/// That a column's cells were filled, in words.
+fn said_of(column: &Column) -> String {
+    format!(
+        "`{}`: empty cells hold the value above them",
+        column.written
+    )
 }
 
 fn put(sheet: &mut Sheet, row: usize, at: usize, value: String) {
@@ -95,6 +109,7 @@ mod tests {
                 rows: std::iter::once(Vec::new()).chain(rows).collect(),
                 without_result: None,
                 plain_decimals: true,
+                said: Vec::new(),
             };
             let filled = with_values_above(&sheet, 0, usize::from(within), within.then_some(0));
             filled.map(|filled| filled.iter().map(|(row, _)| *row).collect::<Vec<_>>())
