@@ -5,11 +5,12 @@
 //!     depths are of theirs, since each test may have a k of its own; wear is how far it ranges along the flank, as zeros of traces leave it (deep wear
 //!     spreads: its range grows less than its mean), or of single places the depth itself
 //! pinion's exchanged: q_i = q + L, q_j = q − L; gear's: q_i = q − L, q_j = q + L       q that of the other tests
-//! the computed part of L above ln 1.3, |L| above half of that, both within a fifth of L, as the other tests are of each other; for one pair and one member alone
+//! the computed part of L above ln 1.3, |L| above half of that, both within a fifth of L, as the other tests are of each other; for one pair alone, and where either
+//! member's would do, of the one that leaves the k of both tests more alike
 //! ```
 
 use super::super::residual_statistics::FittedRow;
-use super::exchanged_depths::{factor, of_one_test, of_test, sizes};
+use super::exchanged_depths::{factor, of_one_test, sizes};
 use crate::measure::{Quantity, Subject};
 use crate::numeric::median;
 use crate::numeric::written::significant;
@@ -21,54 +22,93 @@ const APART_BY_OWN_K: f64 = 0.13;
 /// How near to exchanged two tests must be, and how near each other the others, in parts of L.
 const NEAR: f64 = 0.2;
 
+/// The depths of a test: of both members, pinion first.
+struct OfTest {
+    test: usize,
+    /// q.
+    q: f64,
+    /// ln of the computed wear per revolution.
+    computed: [f64; 2],
+    /// ln of how many times the model's they are.
+    factor: [f64; 2],
+}
+
+impl OfTest {
+    /// None of a test without depths of both members.
+    fn new(rows: &[FittedRow<'_>], test: usize) -> Option<Self> {
+        let [pinion, gear] =
+            MEMBERS.map(|member| Some([level(rows, test, member)?, factor(rows, test, member)?]));
+        let [pinion, gear] = [pinion?, gear?].map(|own| own.map(f64::ln));
+        Some(Self {
+            test,
+            q: pinion[1] - gear[1],
+            computed: [pinion[0], gear[0]],
+            factor: [pinion[1], gear[1]],
+        })
+    }
+}
+
+/// Depths of one member that fit once exchanged between two tests.
+struct Exchange<'t> {
+    /// Its place in [`MEMBERS`].
+    member: usize,
+    tests: [&'t OfTest; 2],
+    /// ln of how many times what they should be the member's depths of the first test are.
+    by: f64,
+    /// How much the k of both tests differ then, of ln k.
+    unlike: f64,
+}
+
+const MEMBERS: [Subject; 2] = [Subject::Pinion, Subject::Gear];
+
 /// A question about the two tests of which one member's depths fit once exchanged; none for fewer than three tests.
 pub(super) fn exchanged_curves(study: &Study, rows: &[FittedRow<'_>]) -> Option<String> {
-    let own = (0..study.tests.len()).filter_map(|test| Some((test, of_test(rows, test)?)));
-    let own: Vec<(usize, f64)> = own.collect();
-    let pairs = (0..own.len()).flat_map(|i| (i + 1..own.len()).map(move |j| (i, j)));
-    let members = [(Subject::Pinion, 1.0), (Subject::Gear, -1.0)];
-    let found = pairs
-        .flat_map(|pair| members.map(|of| (pair, of)))
-        .filter_map(|((i, j), (member, sign))| {
-            let [one, other] = [own[i], own[j]];
-            let of_mate = |test| factor(rows, test, mate_of(member));
-            let computed = (level(rows, other.0, member)? / level(rows, one.0, member)?).ln();
-            let of_own_k = (of_mate(other.0)? / of_mate(one.0)?).ln();
-            let by = sign * (computed + of_own_k);
-            let others = own.iter().filter(|q| q.0 != one.0 && q.0 != other.0);
-            let others: Vec<f64> = others.map(|q| q.1).collect();
-            let usual = median(others.clone())?;
-            let near = |x: f64| x.abs() < NEAR * by.abs();
-            let is_exchanged = computed.abs() > APART
-                && by.abs() > APART_BY_OWN_K
-                && others.iter().all(|q| near(q - usual))
-                && near(one.1 - usual - by)
-                && near(other.1 - usual + by);
-            is_exchanged.then_some((member, one, other, sign * by, of_own_k.abs()))
-        });
-    let found: Vec<_> = found.collect();
-    let of_one_pair = (found.windows(2)).all(|two| (two[0].1, two[0].2) == (two[1].1, two[1].2));
+    let own = (0..study.tests.len()).filter_map(|test| OfTest::new(rows, test));
+    let own: Vec<OfTest> = own.collect();
+    let pairs = (0..own.len()).flat_map(|i| (i + 1..own.len()).map(move |j| [i, j]));
+    let found: Vec<Exchange<'_>> = pairs
+        .flat_map(|pair| [0, 1].map(|member| (pair, member)))
+        .filter_map(|(pair, member)| exchange(&own, pair, member))
+        .collect();
+    let tests = |found: &Exchange<'_>| found.tests.map(|of| of.test);
+    let of_one_pair = found.windows(2).all(|two| tests(&two[0]) == tests(&two[1]));
     // where either member's would do, the one that leaves the k of both tests more alike
-    let best = found.into_iter().min_by(|a, b| a.4.total_cmp(&b.4));
-    let (member, one, other, by, _) = best.filter(|_| of_one_pair)?;
-    let mate = mate_of(member);
-    let [first, second] = [one.0, other.0].map(|test| &study.tests[test].id);
+    let best = found.iter().min_by(|a, b| a.unlike.total_cmp(&b.unlike));
+    let best = best.filter(|_| of_one_pair)?;
+    let [first, second] = tests(best).map(|test| &study.tests[test].id);
+    let [member, mate] = [best.member, 1 - best.member].map(|place| MEMBERS[place].name());
     Some(format!(
-        "are the {}'s depths of tests {first} and {second} exchanged? Against the {}'s of the same tests they are {} times what they should be in {first} and {} \
+        "are the {member}'s depths of tests {first} and {second} exchanged? Against the {mate}'s of the same tests they are {} times what they should be in {first} and {} \
          times in {second}, as they would be under each other's names: look at the files or sheets that they come from",
-        member.name(),
-        mate.name(),
-        significant(by.exp(), 2),
-        significant((-by).exp(), 2),
+        significant(best.by.exp(), 2),
+        significant((-best.by).exp(), 2),
     ))
 }
 
-/// The member that one runs against.
-fn mate_of(member: Subject) -> Subject {
-    match member {
-        Subject::Pinion => Subject::Gear,
-        _ => Subject::Pinion,
-    }
+/// Whether the depths of one member of two tests fit once exchanged.
+fn exchange(own: &[OfTest], pair: [usize; 2], member: usize) -> Option<Exchange<'_>> {
+    let [one, other] = pair.map(|at| &own[at]);
+    let mate = 1 - member;
+    let computed = other.computed[member] - one.computed[member];
+    let of_own_k = other.factor[mate] - one.factor[mate];
+    let by = computed + of_own_k;
+    // q is the pinion's over the gear's
+    let of_q = if member == 0 { by } else { -by };
+    let others = (own.iter().enumerate()).filter(|(at, _)| !pair.contains(at));
+    let others: Vec<f64> = others.map(|(_, of)| of.q).collect();
+    let usual = median(others.clone())?;
+    let near = |x: f64| x.abs() < NEAR * by.abs();
+    let is_exchanged = computed.abs() > APART
+        && by.abs() > APART_BY_OWN_K
+        && near(one.q - usual - of_q)
+        && near(other.q - usual + of_q)
+        && others.iter().all(|q| near(q - usual));
+    is_exchanged.then_some(Exchange {
+        member,
+        tests: [one, other],
+        by,
+        unlike: of_own_k.abs(),
+    })
 }
 
 /// Computed wear of a member's rows per revolution.

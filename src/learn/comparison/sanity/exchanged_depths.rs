@@ -88,7 +88,7 @@ pub(super) fn of_one_test<'d>(rows: &[FittedRow<'d>], test: usize) -> Vec<Fitted
 }
 
 /// ln of how much more the pinion's depths are the model's than the gear's; None without both.
-pub(super) fn of_test(rows: &[FittedRow<'_>], test: usize) -> Option<f64> {
+fn of_test(rows: &[FittedRow<'_>], test: usize) -> Option<f64> {
     let of = |member| factor(rows, test, member);
     Some((of(Subject::Pinion)? / of(Subject::Gear)?).ln())
 }
