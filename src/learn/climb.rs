@@ -7,11 +7,11 @@
 //! fitted to is kept.
 //!
 //! An effect pays if the evidence outweighs the prior odds of nothing more against one effect of the catalogue, and the error on tests that
-//! it was not fitted to does not rise beyond its own standard error:
+//! it was not fitted to does not rise beyond its own standard error, or their whole χ² by no more than one value may:
 //!
 //! ```text
 //! ln Z_after − ln Z_before > ln(π_nothing n/π_singles)        n: single effects of the catalogue
-//! χ²_after/N ≤ χ²_before/N (1 + √(2/N))                       N: their points; χ² of N residuals has a relative spread of √(2/N)
+//! χ²_after/N ≤ χ²_before/N (1 + √(2/N))  or  χ²_after ≤ χ²_before + 4      N: their points; χ² of N residuals has a relative spread of √(2/N)
 //! ```
 
 mod proposal;

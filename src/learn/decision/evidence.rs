@@ -113,7 +113,18 @@ pub struct CandidateEvidence {
     pub scatter_gain: f64,
 }
 
+/// Share of what a discrepancy gains beside an effect from which a law beside it stands for what is unknown.
+const LAW_IS_ENOUGH: f64 = 0.5;
+
 impl Evidence {
+    /// The best law beside an effect, if what it does there is enough to tell by the laws which effect it is that something unknown stands beside.
+    pub fn telling_law(&self) -> Option<&LawBesideEvidence> {
+        let laws = self.laws_beside.iter();
+        let best = laws.max_by(|a, b| a.evidence_gain.total_cmp(&b.evidence_gain))?;
+        let own = (self.beside_unknown.iter()).find(|r| r.effects == best.effects)?;
+        (best.law_gain >= LAW_IS_ENOUGH * own.remainder_gain).then_some(best)
+    }
+
     /// Whether there is a discrepancy to be accounted for.
     pub fn is_discrepant(&self) -> bool {
         is_significant(self.attainable_drop, self.attainable_spread)

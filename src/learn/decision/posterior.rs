@@ -69,9 +69,6 @@ use crate::numeric::logarithm::{log_sum_exp, softplus};
 /// Fall of χ² by which another form of an effect may be behind and leave as much.
 const LEAVES_AS_MUCH: f64 = 1.0;
 
-/// Share of what a discrepancy gains beside an effect from which a law beside it stands for what is unknown.
-const LAW_IS_ENOUGH: f64 = 0.5;
-
 /// Gain of ln evidence beside something unknown below which effects gain alike.
 const LEAST_GAIN: f64 = 1.0;
 
@@ -277,14 +274,7 @@ fn share_by_laws(logs: &mut BTreeMap<Hypothesis, f64>, evidence: &Evidence, rule
         .filter(|(hypothesis, _)| logs.contains_key(hypothesis))
         .collect();
     laws.sort_by(|a, b| a.1.effects.cmp(&b.1.effects));
-    let by_gain = |a: &&LawBesideEvidence, b: &&LawBesideEvidence| {
-        a.evidence_gain.total_cmp(&b.evidence_gain)
-    };
-    let Some(best) = laws.iter().map(|(_, law)| *law).max_by(by_gain) else {
-        return;
-    };
-    let own = (evidence.beside_unknown.iter()).find(|r| r.effects == best.effects);
-    if own.is_none_or(|r| best.law_gain < LAW_IS_ENOUGH * r.remainder_gain) {
+    if evidence.telling_law().is_none() {
         return;
     }
     let together = log_sum_exp(&laws.iter().map(|(h, _)| logs[h]).collect::<Vec<_>>());

@@ -95,15 +95,16 @@ fn meaning(law: &str) -> &str {
 pub(super) fn beside(findings: &Findings<'_>) -> Option<String> {
     let posterior = findings.posterior;
     let first = posterior.decision.group.first()?;
-    let mut laws: Vec<&LawBesideEvidence> = posterior.evidence.laws_beside.iter().collect();
-    laws.sort_by(|a, b| b.evidence_gain.total_cmp(&a.evidence_gain));
-    let [best, others @ ..] = &laws[..] else {
-        return None;
-    };
-    let next = others.first()?;
-    let ahead = best.evidence_gain - next.evidence_gain;
+    let best = posterior.evidence.telling_law()?;
+    let laws = posterior.evidence.laws_beside.iter();
+    let others: Vec<&LawBesideEvidence> = laws.filter(|law| law.effects != best.effects).collect();
+    let next = others
+        .iter()
+        .map(|law| law.evidence_gain)
+        .reduce(f64::max)?;
+    let ahead = best.evidence_gain - next;
     (ahead > AHEAD && *first == Hypothesis::EffectsAndUnknown(best.effects.clone()))
-        .then(|| sentence_beside(best, others, ahead))
+        .then(|| sentence_beside(best, &others, ahead))
 }
 
 fn sentence_beside(best: &LawBesideEvidence, others: &[&LawBesideEvidence], ahead: f64) -> String {

@@ -15,7 +15,8 @@ use crate::effects::Hook;
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::EffectSet;
 
-/// ln evidence by which the first law may be behind for a second to be fitted beside other effects.
+/// ln evidence by which the first law may be behind for a second to be fitted beside other effects, and a law behind a pair by the analytic model for finite
+/// elements to be asked.
 const FAR_BEHIND: f64 = 30.0;
 
 /// The laws instead of the sum of waves in what leads, or of a pair that leads without one; none where there is neither. `fitted`: by falling evidence.
