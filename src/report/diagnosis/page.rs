@@ -2,7 +2,8 @@
 
 use super::{NOISE_MODEL, figures, means, name, parameters, unknown_name};
 use crate::learn::diagnose::{
-    CHECK_FIRST, Diagnosis, Hypothesis, NextExperiment, NextTest, Ranked, Screened, Verdict,
+    CHECK_FIRST, Diagnosis, Hypothesis, LawBesideEvidence, NextExperiment, NextTest, Ranked,
+    Screened, Verdict,
 };
 use crate::numeric::written::{count, ended, fixed, plain, probability, significant};
 use crate::report::html::{Cell, Page, Section, Table};
@@ -88,7 +89,7 @@ fn ranking(diagnosis: &Diagnosis) -> Section {
             )
         });
     let of_unknown = of_unknown.map_or_else(String::new, |text| {
-        text.to_owned() + &of_pairs.collect::<String>()
+        text.to_owned() + &of_pairs.collect::<String>() + &of_laws(&diagnosis.laws_beside)
     });
     Section::new("Ranking").table(table).note(format!(
         "χ² per point: 1 is the noise floor. ln evidence over the base: how much more probable the data are with the effect, \
@@ -96,6 +97,28 @@ fn ranking(diagnosis: &Diagnosis) -> Section {
          k refitted; at 90° they have nothing in common, below some 10° they do the same, towards 180° the opposite. χ² of lines that were decided by other means than the first holds the \
          error of those means too. {NOISE_MODEL}.",
     ))
+}
+
+/// What laws beside several effects say of them, where such were fitted.
+fn of_laws(laws: &[LawBesideEvidence]) -> String {
+    let each: Vec<String> = (laws.iter())
+        .map(|law| {
+            format!(
+                "beside {} ({}) {}",
+                law.effects.in_words(),
+                law.law,
+                fixed(law.evidence_gain, 0)
+            )
+        })
+        .collect();
+    if each.len() < 2 {
+        return String::new();
+    }
+    format!(
+        " ln evidence of the best free factor on k, over the least of these: {}; where such a factor does at least half of what something unknown does, this decides \
+         between these effects, and not the figure over unknown.",
+        each.join(", ")
+    )
 }
 
 /// What belongs to the column over something unknown alone, where there is one: effects were tried with something unknown beside them.

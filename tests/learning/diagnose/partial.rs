@@ -94,6 +94,12 @@ fn an_effect_beside_the_weather_is_told_by_laws_beside_it() {
     };
     assert_eq!(of(there).law, "learned:cycles");
     assert!(of(there).evidence_gain > of(not_there).evidence_gain + 10.0);
+    let page = report::diagnosis::page("", &found, "study.toml");
+    let ranking = (page.sections.iter())
+        .find(|section| section.heading == "Ranking")
+        .unwrap();
+    let said = "beside approach_recess (learned:cycles)";
+    assert!(ranking.notes[0].contains(said), "{:?}", ranking.notes);
     let beside = |name: &str| found.probabilities[&format!("{name}+unknown")];
     assert!(
         beside(there) > 100.0 * beside(not_there),
