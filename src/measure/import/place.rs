@@ -70,6 +70,8 @@ impl PositionKind {
             "roulement",
             "développement",
             "developpement",
+            "développante",
+            "developpante",
             "rodadura",
         ]) {
             PositionKind::RollLength
@@ -145,6 +147,7 @@ mod tests {
             ("⌀", PositionKind::Diameter),
             ("Messkreis", PositionKind::Diameter),
             ("Wälzlänge", PositionKind::RollLength),
+            ("Longueur de développante (mm)", PositionKind::RollLength),
             ("roll [°]", PositionKind::RollAngle),
         ] {
             assert_eq!(PositionKind::of_header(header), kind, "{header}");

@@ -2,6 +2,24 @@
 
 use super::*;
 
+/// The first cell may name the rows and the columns of a table. At 2000 rpm an hour has 120,000 revolutions.
+#[test]
+fn a_first_cell_that_names_rows_and_columns_tells_running_times() {
+    let home = home();
+    let options = "--test A --member pinion --unit um --sigma 0.1 --no-traces";
+    let expected = "A,pinion,180000,wear_depth,26.5,1.1,0.1,\nA,pinion,180000,wear_depth,28,2.1,0.1,\n\
+                    A,pinion,960000,wear_depth,26.5,1.2,0.1,\nA,pinion,960000,wear_depth,28,2.2,0.1,\n";
+    for table in [
+        "Zeit [h] / Radius [mm];26,5;28,0\n1,5;1,1;2,1\n8,0;1,2;2,2\n",
+        "Laufzeit [min] \\ Radius [mm];26,5;28,0\n90;1,1;2,1\n480;1,2;2,2\n",
+        "Rayon [mm] / Temps [h];1,5;8,0\n26,5;1,1;1,2\n28,0;2,1;2,2\n",
+    ] {
+        let (shown, written) = rows(&home, table, options);
+        assert_eq!(written, expected, "{table}\n{shown}");
+        assert!(shown.contains("running times, turned into"), "{shown}");
+    }
+}
+
 /// At 2000 rpm an hour has 120,000 revolutions; 8.333 h are the test's end, 1,000,000, to within what is written.
 #[test]
 fn running_times_are_turned_into_revolutions() {

@@ -2,6 +2,17 @@
 
 use super::*;
 
+/// As `Componente` and `Pezzo`.
+#[test]
+fn an_element_above_a_table_is_a_member() {
+    let home = home();
+    for title in ["Elemento: pignone", "Element: Ritzel"] {
+        let table = format!("Prova: A\n{title}\nUsura [um]\nRaggio [mm];100000\n26,5;1,5\n");
+        let (_, written) = rows(&home, &table, "--sigma 0.1 --no-traces");
+        assert_eq!(written, "A,pinion,100000,wear_depth,26.5,1.5,0.1,\n");
+    }
+}
+
 /// A title may name the test and state the unit: both are obeyed.
 #[test]
 fn a_title_that_names_the_test_states_the_unit_too() {

@@ -18,9 +18,10 @@ pub(super) fn as_revolutions(
     wanted: &Wanted<'_>,
     test: &str,
 ) -> Result<Option<(Sheet, String)>, ImportError> {
-    let across = in_headers(sheet, head)?;
+    let (of_rows, of_columns) = in_the_corner(&sheet.rows[head][0]);
+    let across = in_headers(sheet, head, of_columns.and_then(hours_of))?;
     let down = if across.is_empty() {
-        in_first_column(sheet, head)?
+        in_first_column(sheet, head, of_rows)?
     } else {
         Vec::new()
     };
@@ -33,7 +34,12 @@ pub(super) fn as_revolutions(
         *cell = time.beside.replace("{}", &revolutions.to_string());
     }
     if !down.is_empty() {
-        "cycles".clone_into(&mut own.rows[head][0]);
+        own.rows[head][0] = match of_columns {
+            Some(places) => format!("cycles / {places}"),
+            None => "cycles".to_owned(),
+        };
+    } else if let Some(places) = of_columns.and(Some(of_rows)).filter(|_| !across.is_empty()) {
+        places.clone_into(&mut own.rows[head][0]);
     }
     Ok(first.map(|(time, revolutions)| {
         let speed = wanted.run(test).map_or(0.0, |[rpm, _]| rpm);
@@ -42,6 +48,27 @@ pub(super) fn as_revolutions(
         );
         (own, said)
     }))
+}
+
+/// What the first cell of a table calls its rows, and its columns where it names both: `running time [h] / radius [mm]`.
+fn in_the_corner(text: &str) -> (&str, Option<&str>) {
+    let both = [" / ", " \\ ", "\\"]
+        .into_iter()
+        .find_map(|between| text.split_once(between));
+    match both {
+        Some((rows, columns)) if !rows.trim().is_empty() && !columns.trim().is_empty() => {
+            (rows.trim(), Some(columns.trim()))
+        }
+        _ => (text, None),
+    }
+}
+
+/// Hours of the unit of what is called a running time.
+fn hours_of(header: &str) -> Option<f64> {
+    let column = Column::of(0, header);
+    units::bracketed(header).map_or(column.hours, |unit| {
+        column.hours.and_then(|_| hours_on_the_rig(unit))
+    })
 }
 
 /// A running time in a cell.
@@ -57,11 +84,15 @@ struct Time {
     beside: String,
 }
 
-fn in_headers(sheet: &Sheet, head: usize) -> Result<Vec<Time>, ImportError> {
+/// `hours`: those of the unit that the first cell gives all columns.
+fn in_headers(sheet: &Sheet, head: usize, hours: Option<f64>) -> Result<Vec<Time>, ImportError> {
     let cells = sheet.rows[head].iter().enumerate().skip(1);
     let counts = cells.filter(|(_, text)| !text.is_empty() && !is_aside(text));
     let counts: Vec<(usize, &String)> = counts.collect();
-    let of = |&(column, text): &(usize, &String)| time_in(text, head, column);
+    let of = |&(column, text): &(usize, &String)| match hours {
+        Some(hours) => bare_time(text, hours, head, column),
+        None => time_in(text, head, column),
+    };
     let times: Vec<Time> = counts.iter().filter_map(of).collect();
     let is_time = |column: usize| times.iter().any(|time| time.column == column);
     let other = counts.iter().find(|(column, _)| !is_time(*column));
@@ -74,6 +105,21 @@ fn in_headers(sheet: &Sheet, head: usize) -> Result<Vec<Time>, ImportError> {
         ))),
         _ => Ok(times),
     }
+}
+
+/// The running time that a header without a unit tells.
+fn bare_time(text: &str, hours: f64, row: usize, column: usize) -> Option<Time> {
+    let [written] = number_words(text)[..] else {
+        return None;
+    };
+    Some(Time {
+        row,
+        column,
+        number: written.to_owned(),
+        value: pointed(written).parse().ok()?,
+        hours,
+        beside: text.replacen(written, "{}", 1),
+    })
 }
 
 /// The running time that a header tells: `20 h`, `after 20,5 [h]`.
@@ -101,13 +147,8 @@ fn time_in(text: &str, row: usize, column: usize) -> Option<Time> {
     })
 }
 
-fn in_first_column(sheet: &Sheet, head: usize) -> Result<Vec<Time>, ImportError> {
-    let corner = Column::of(0, &sheet.rows[head][0]);
-    let stated = units::bracketed(&sheet.rows[head][0]);
-    let unit = stated.map_or(corner.hours, |unit| {
-        corner.hours.and_then(|_| hours_on_the_rig(unit))
-    });
-    let Some(hours) = unit else {
+fn in_first_column(sheet: &Sheet, head: usize, name: &str) -> Result<Vec<Time>, ImportError> {
+    let Some(hours) = hours_of(name) else {
         return Ok(Vec::new());
     };
     let rows = sheet.rows.iter().enumerate().skip(head + 1);
