@@ -6,7 +6,7 @@ use super::far_datums::far_datums;
 use super::fit_warnings::{correlation, fit_warnings};
 use super::lone_row::lone_rows;
 use super::misfit_location::sentence;
-use super::misfit_ranking::worst_first;
+use super::misfit_ranking::{fails, worst_first};
 use super::ratio::{Ratio, ratios};
 use super::residual_statistics::{Cell, FittedRow, Group, Share, cells, fitted, role_name, wear};
 use super::sanity::sanity;
@@ -154,6 +154,11 @@ fn coefficient_prior(study: &Study) -> String {
 }
 
 impl Comparison {
+    /// Whether the model misses the measurements of some place by more than their noise: [`Comparison::worst`] says of which most.
+    pub fn fails_somewhere(&self) -> bool {
+        self.places.iter().any(fails)
+    }
+
     /// Of a fit to a study's measurements.
     pub fn new(study: &Study, data: &Dataset, fit: &Fit) -> Self {
         let map = FlankRegions::new(study, data);

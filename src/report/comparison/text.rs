@@ -298,6 +298,10 @@ pub(super) fn next_step(result: &super::Result<'_>) -> String {
             "χ² per point is that of noise within each test, but k scatters by {} between them: gearwear diagnose {name} looks for what it follows",
             percent(result.comparison.coefficient_scatter, 2)
         )
+    } else if result.comparison.fails_somewhere() {
+        format!(
+            "χ² per point of all together is near that of noise, that of the place named above is not: look at its rows, then gearwear diagnose {name}"
+        )
     } else {
         // a trend over many points can be certain below the noise of each
         format!(

@@ -89,7 +89,7 @@ fn ladder(mounted: &Mounted, quantity: Quantity) -> Option<Table> {
     head.extend(heads.iter().map(String::as_str));
     head.push("A–E");
     let mut table = Table::new(&caption, head);
-    let digits = decimals(quantity);
+    let digits = decimals(mounted, quantity);
     let numbers = |means: &Means, written: fn(f64, usize) -> String| {
         let all = means.regions.iter().chain(std::iter::once(&means.whole));
         all.map(|v| Cell::number(written(*v, digits)))

@@ -178,11 +178,41 @@ pub(super) fn signed(value: f64, decimals: usize) -> String {
     }
 }
 
-/// Decimals that suit a quantity.
-pub(super) fn decimals(quantity: Quantity) -> usize {
+/// Decimals that suit a quantity of a mounting: those of depths show the largest one by three digits, so that its causes add up.
+pub(super) fn decimals(mounted: &Mounted, quantity: Quantity) -> usize {
     match quantity {
         Quantity::PeakPressure => 1,
         Quantity::LoadShare => 3,
-        Quantity::DepthPinion | Quantity::DepthGear => 3,
+        Quantity::DepthPinion | Quantity::DepthGear => {
+            let means =
+                (mounted.ladders.iter()).flat_map(|ladder| ladder.start.iter().chain(&ladder.end));
+            let depths = means.filter(|means| means.quantity == quantity);
+            let largest = depths
+                .flat_map(|means| &means.regions)
+                .copied()
+                .fold(0.0, f64::max);
+            decimals_of_depths(largest)
+        }
+    }
+}
+
+fn decimals_of_depths(largest: f64) -> usize {
+    let of_three_digits = if largest > 0.0 {
+        2.0 - largest.log10().floor()
+    } else {
+        0.0
+    };
+    of_three_digits.clamp(3.0, 9.0) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::decimals_of_depths;
+
+    /// A steel pinion against plastic wears by hundredths of a micrometre: thousandths showed nothing but zeros.
+    #[test]
+    fn small_depths_are_written_with_three_digits() {
+        let of = [40.0, 4.2, 0.5, 0.0241, 0.0042, 0.0].map(decimals_of_depths);
+        assert_eq!(of, [3, 3, 3, 4, 5, 3]);
     }
 }

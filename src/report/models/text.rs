@@ -78,7 +78,7 @@ fn table(lines: &mut Vec<String>, mounted: &Mounted, quantity: Quantity) {
             .collect();
         format!("{first:<FIRST$}{cells}")
     };
-    let digits = decimals(quantity);
+    let digits = decimals(mounted, quantity);
     let numbers = |means: &Means, written: fn(f64, usize) -> String| {
         let all = means.regions.iter().chain(std::iter::once(&means.whole));
         all.map(|v| written(*v, digits)).collect::<Vec<_>>()

@@ -244,14 +244,20 @@ pub(super) fn of_the_other_member(
                 two_digits((k - mean).exp()),
                 torque(test)
             );
-            Some(said(what, "divide its torque"))
+            let asked = said(what, "divide its torque");
+            Some(format!(
+                "{asked}; or is it, or are the cycles, stated too high?"
+            ))
         } else if off_by_ratio && by > 0.0 && among(cycles(test) * ratio, &cycles) {
             let what = format!(
-                "wears with a k {} times that of the others, near {gear}/{pinion}, and they agree; the study says that it lasts {} revolutions",
+                "wears with a k {} times that of the others, near {gear}/{pinion}, and they agree; the study says that it lasts {} revolutions at {} N m",
                 two_digits((k - mean).exp()),
-                cycles(test)
+                cycles(test),
+                torque(test)
             );
-            Some(said(what, "multiply its cycles, and those of its rows,"))
+            let asked = said(what, "multiply its cycles, and those of its rows,");
+            // wear goes with load times cycles: the figures alone do not tell which is wrong
+            Some(format!("{asked}; or is the torque stated too low?"))
         } else {
             None
         }
