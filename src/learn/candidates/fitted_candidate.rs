@@ -12,6 +12,8 @@ use crate::learn::prediction::fidelity::Fidelity;
 /// Most log evidence that a fit may gain, over half its fall of χ²; and what any may gain beyond that explains as much as this itself.
 const EXCUSED: f64 = 1.2;
 const EXCUSED_AT_LEAST: f64 = 5.0;
+/// ln evidence, and half of χ², that a form may be behind another one and do as well.
+pub(in crate::learn) const AS_WELL: f64 = 3.0;
 /// Scatter of k below which less is none.
 const LEAST_SCATTER: f64 = 0.01;
 
@@ -54,6 +56,12 @@ pub(in crate::learn) struct BaseFit {
 }
 
 impl FittedCandidate {
+    /// Whether it explains the data as well as `other`, another form of the same effects: by the fit too, as evidence allows for an error of the form.
+    pub(in crate::learn) fn does_as_well_as(&self, other: &Self) -> bool {
+        other.log_evidence - self.log_evidence < AS_WELL
+            && self.square - other.square < 2.0 * AS_WELL
+    }
+
     /// Its evidence; over that of `base`, unless it is the base model itself.
     pub(in crate::learn) fn new(
         likelihood: &Likelihood<'_>,

@@ -19,9 +19,14 @@ pub(in crate::learn) fn measured_once<'a>(likelihood: &'a Likelihood<'_>) -> Vec
     once.map(|&test| names[test].as_str()).collect()
 }
 
-/// Whether there are too few values for any answer.
+/// Whether there are so few values that only strong effects can show.
 pub(in crate::learn) fn few(likelihood: &Likelihood<'_>, base: &BaseFit) -> bool {
     likelihood.len() < 4 * unknowns(likelihood, base)
+}
+
+/// Whether there are too few values for any answer.
+pub(in crate::learn) fn too_few(likelihood: &Likelihood<'_>, base: &BaseFit) -> bool {
+    likelihood.len() < 2 * unknowns(likelihood, base)
 }
 
 /// k, k of each test, the base model's own parameters, and two of an effect.

@@ -16,7 +16,7 @@ use super::wording::{self, Repetition};
 use crate::learn::candidates::fitted_candidate::FittedCandidate;
 use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::checks::scatter_trend::trend_of_scatter;
-use crate::learn::checks::sufficiency::few;
+use crate::learn::checks::sufficiency::too_few;
 use crate::learn::decision::{DecisionRule, Verdict};
 use crate::learn::fitting::measured::Measured;
 use crate::learn::hypothesis::candidate::Candidate;
@@ -105,7 +105,7 @@ pub fn plan_after(
     }
     let tests = in_order(rows, &made(&study.tests, &measured.data));
     let trend = trend_of_scatter(&context.likelihood, &base.fitted.found.state);
-    let too_few = few(&context.likelihood, &base);
+    let too_few = too_few(&context.likelihood, &base);
     Ok(Plan::NextTests(NextTests {
         sentence: tests.first().map_or_else(
             || "No feasible test that is new could be computed.".to_owned(),

@@ -5,7 +5,7 @@ use super::outlook::Outlook;
 use super::scatter::{made_twice, of_scatter};
 use super::wording::{Explanation, before, chance, chi2};
 use crate::learn::checks::scatter_trend::trend_of_scatter;
-use crate::learn::checks::sufficiency::{few, measured_once};
+use crate::learn::checks::sufficiency::{measured_once, too_few};
 use crate::learn::decision::SURE;
 use crate::learn::experiment::next::NextExperiment;
 use crate::learn::hypothesis::Hypothesis;
@@ -30,7 +30,7 @@ pub(super) fn nothing_missing(
     } else {
         "Nothing is missing that these data show"
     };
-    let too_few = few(likelihood, findings.base);
+    let too_few = too_few(likelihood, findings.base);
     let sentence = if too_few {
         format!(
             "Too few measured values ({}) to tell whether anything is missing: the base model stands at χ² {chi2_before:.2} per point (1 is the noise).",

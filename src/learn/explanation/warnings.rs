@@ -2,7 +2,7 @@
 
 use super::ranked::{form, parameters};
 use crate::effects::Card;
-use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::candidates::fitted_candidate::{AS_WELL, BaseFit, FittedCandidate};
 use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::checks::common_scatter;
 use crate::learn::checks::noise_level;
@@ -22,8 +22,6 @@ use crate::numeric::written::significant;
 
 /// Share of a parameter's prior outside of which a value is told.
 const UNHEARD_OF: f64 = 1e-3;
-/// ln evidence by which another form of a law has to be behind to be settled against.
-const SETTLED: f64 = 3.0;
 
 /// What keeps an answer from being trusted.
 pub(in crate::learn) fn warnings(
@@ -233,7 +231,7 @@ fn of_fits(base: &BaseFit, posterior: &JudgedCandidates) -> Vec<String> {
             let rivals = rivals.filter_map(|rival| Some((rival, posterior.fitted(base, rival)?)));
             // what is fitted to nothing may have any size
             let does_something = |(_, fitted): &(&Hypothesis, &FittedCandidate)| {
-                base.fitted.square - fitted.square > 2.0 * SETTLED
+                base.fitted.square - fitted.square > 2.0 * AS_WELL
             };
             warnings.extend(
                 rivals
@@ -291,11 +289,7 @@ pub(super) fn other_forms<'p>(
     let others: Vec<&FittedCandidate> = own
         .filter(|other| other.candidate.effects == *effects && form(other) != form(leader))
         .collect();
-    // by the fit too: evidence allows for an error of the form
-    let is_as_good = |other: &&FittedCandidate| {
-        leader.log_evidence - other.log_evidence < SETTLED
-            && other.square - leader.square < 2.0 * SETTLED
-    };
+    let is_as_good = |other: &&FittedCandidate| other.does_as_well_as(leader);
     let as_good = others.iter().copied().filter(is_as_good).collect();
     (others, as_good)
 }
@@ -321,7 +315,7 @@ fn form_warning(effects: &str, form: &str, others: &[String], one_alone: bool) -
         others => format!("{} explain the data as well", others.join(" and ")),
     };
     Some(format!(
-        "the parameters of {effects} and their intervals hold for one form of the law ({form}): {why}, with other values. gearwear add fits the form named here and the effect's own, and any other with --form"
+        "the parameters of {effects} and their intervals hold for one form of the law ({form}): {why}, with other values. gearwear add fits this form and the effect's own, and any other with --form"
     ))
 }
 

@@ -101,10 +101,17 @@ pub(in crate::learn) fn pairs(
             *leader = further;
         }
     }
+    // what the effects' own forms do as well is told of these
+    let own = fitted.first().and_then(|best| {
+        let forms = fitted.iter().enumerate();
+        let mut forms = forms.filter(|(_, pair)| pair.candidate.effects == best.candidate.effects);
+        forms.find(|(_, pair)| pair.candidate.is_own_form() && pair.does_as_well_as(best))
+    });
+    let own = own.map(|(place, _)| place);
     let mut decided = Vec::with_capacity(fitted.len());
     for (i, pair) in fitted.into_iter().enumerate() {
         let better = pair.log_evidence > best.log_evidence;
-        if i < FITTED[1] && better && context.fidelity != Fidelity::Middle {
+        if (i < FITTED[1] || own == Some(i)) && better && context.fidelity != Fidelity::Middle {
             let start = pair.found.state.clone();
             decided.push(
                 context
