@@ -29,7 +29,7 @@ use crate::study::{Study, WEAR_COEFFICIENT, rounded};
 /// Arguments of `add`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  gearwear add study.toml running_in\n  gearwear add study.toml tip_relief -o relieved.toml --set length=2.5\n  gearwear add study.toml running_in --set amplitude=3 --set decay_cycles=2e5 --set wear.coefficient=5e-10\n  gearwear add study.toml running_in --form hyperbolic\n  gearwear add study.toml learned:cycles\n  gearwear add study.toml learned:radius:pinion --form profile"
+    after_help = "Examples:\n  gearwear add study.toml running_in\n  gearwear add study.toml tip_relief -o relieved.toml --set length=2.5\n  gearwear add study.toml running_in --set amplitude=3 --set decay_cycles=2e5 --set wear.coefficient=5e-10\n  gearwear add study.toml running_in --form hyperbolic\n  gearwear add study.toml learned:cycles\n  gearwear add study.toml learned:cycles --form step\n  gearwear add study.toml learned:radius:pinion --form profile"
 )]
 pub struct AddArgs {
     /// Study file (TOML); it stays as it is
@@ -49,7 +49,8 @@ pub struct AddArgs {
     /// Give a parameter of the effect, or wear.coefficient, this value instead of fitting it; may be repeated
     #[arg(long, value_name = "NAME=VALUE", value_parser = setting)]
     set: Vec<(String, f64)>,
-    /// Fit this form of the effect, `own` or one that `gearwear effects EFFECT` lists; of a learned law `wear_factor` or `profile` [default: its own and the one that a
+    /// Fit this form of the effect, `own` or one that `gearwear effects EFFECT` lists; of a learned law `wear_factor` or `profile`, or the plain formula that stands for its curve:
+    /// `step`, `band`, `hump`, `wave`, `decay`, `growth`, `power` [default: its own and the one that a
     /// finished diagnosis names, and the others too if its own leaves more than noise; its own alone where a parameter of the effect is set]
     #[arg(long, value_name = "FORM")]
     form: Option<String>,

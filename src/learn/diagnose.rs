@@ -16,8 +16,8 @@
 //! its own form (`OWN_FORM` in `likelihood`).
 
 pub use crate::learn::decision::{
-    CandidateEvidence, Decision, DecisionRule, Evidence, LawBesideEvidence, LawInsteadEvidence,
-    RemainderEvidence, Verdict, decide,
+    CandidateEvidence, Decision, DecisionRule, Evidence, LawAloneEvidence, LawBesideEvidence,
+    LawInsteadEvidence, RemainderEvidence, Verdict, decide,
 };
 pub use crate::learn::discrepancy::{
     BinMean, DRIVER_KINDS, DRIVERS, Driver, DriverBin, DriverKind, DriverRow, Explained, MapPoint,
@@ -28,6 +28,7 @@ pub use crate::learn::experiment::{
     NextTest, NextTests, Plan, RankedTest, SETTLES, Separated, made_up_chi2, plan_after,
     plan_first,
 };
+pub(crate) use crate::learn::explanation::plain_in_words;
 pub use crate::learn::explanation::{
     CHECK_FIRST, Diagnosis, Named, ParameterValue, Ranked, Remainder, Screened,
 };
@@ -35,6 +36,7 @@ pub use crate::learn::hypothesis::candidate::NotJudged;
 pub use crate::learn::hypothesis::{EffectSet, Hypothesis};
 pub use crate::learn::model_search::context::DiagnoseError;
 pub use crate::learn::model_search::learned_drivers::{LearnedAnswer, OtherDriver};
+pub use crate::learn::model_search::plain_laws::{PlainLaw, PlainParameter};
 pub use crate::learn::model_search::stages::Watch;
 pub use crate::learn::prediction::fidelity::Fidelity;
 
@@ -210,8 +212,14 @@ fn search(context: &Context<'_>, base: &BaseFit, workshop: &Workshop) -> Diagnos
     };
     let posterior =
         JudgedCandidates::new(likelihood, base, fitted, discrepancy, laws, &smooth, rule);
-    let laws = laws_beside::of(context, &posterior.undecided_beside_unknown());
-    let posterior = posterior.with_laws_beside(laws);
+    let mut laws = laws_beside::of(context, &posterior.undecided_beside_unknown());
+    let alone = (posterior.is_beside_unknown()).then(|| laws_beside::alone(context, base));
+    let alone = alone.flatten();
+    // what is ahead of an effect and a discrepancy may be behind the effect and a law
+    if let Some(rival) = alone.as_ref().filter(|_| laws.is_empty()) {
+        laws = laws_beside::of(context, &posterior.behind(rival));
+    }
+    let posterior = posterior.with_laws_beside(laws, alone);
     let doing = "held-out tests and the next experiment".to_owned();
     stages.begin([EXPERIMENT, LAWS], doing, 1);
     let diagnosis = Diagnosis::new(Findings {

@@ -49,6 +49,7 @@ pub use hypothesis::parameters::{COEFFICIENT, Estimate, Parameter};
 pub use hypothesis::version::ModelVersion;
 pub use inference::search::Effort;
 pub use learned::law::{LearnError, LearnedFit, TriedProcess, WantedLaw};
+pub use learned::plain_form::PlainForm;
 pub use noise::{Datum, ModelError, NoiseModel, SigmaModel};
 pub use prediction::bench::{Bench, MeasuredTest, Workshop};
 pub use prediction::gear_model::{EffectsOf, GearModel};

@@ -2,7 +2,7 @@
 
 use super::html::{Cell, Section, Table};
 use super::plots::{Plot, Style};
-use crate::learn::diagnose::LearnedAnswer;
+use crate::learn::diagnose::{LearnedAnswer, plain_in_words};
 use crate::numeric::written;
 
 /// Standard deviations of the band.
@@ -33,13 +33,32 @@ pub(super) fn section(learned: &LearnedAnswer) -> Section {
     )
     .curve("learned", Style::Kind(0), curve(0.0))
     .curve("two standard deviations above", Style::Line(4), curve(BAND))
-    .curve("and below", Style::Line(4), curve(-BAND))
+    .curve("and below", Style::Line(4), curve(-BAND));
+    let plot = match &learned.plain {
+        None => plot,
+        Some(plain) => {
+            let factors = plain.values.iter().map(|value| value.exp());
+            let curve = learned.knots.iter().copied().zip(factors).collect();
+            plot.curve(
+                &format!("as a {}", plain.form.replace('_', " ")),
+                Style::Kind(1),
+                curve,
+            )
+        }
+    }
     .logarithmic();
     let mut table = Table::new("", ["law", "ln evidence over the model without it", "by"]).row([
         Cell::text(learned.name.clone()),
         Cell::number(written::fixed(learned.evidence_gain, 1)),
         Cell::text(learned.decided_by.name()),
     ]);
+    if let Some(plain) = &learned.plain {
+        table = table.row([
+            Cell::text(format!("the same as a {}", plain.form.replace('_', " "))),
+            Cell::number(written::fixed(plain.evidence_gain, 1)),
+            Cell::text(learned.decided_by.name()),
+        ]);
+    }
     for other in learned.others.iter().take(OTHERS) {
         table = table.row([
             Cell::text(other.name.clone()),
@@ -47,12 +66,21 @@ pub(super) fn section(learned: &LearnedAnswer) -> Section {
             Cell::text(other.decided_by.name()),
         ]);
     }
-    Section::new("A law learned from the measurements")
+    let section = Section::new("A law learned from the measurements")
         .paragraph(format!(
             "What nothing of the catalogue explains, as a smooth factor on k that follows one driver, fitted through the wear history; {} has the greatest \
              evidence. Drivers that go together explain each other's part: believe the one under which the held-out tests are predicted.",
             learned.driver
         ))
         .plots([plot])
-        .table(table)
+        .table(table);
+    let Some(plain) = &learned.plain else {
+        return section;
+    };
+    let words = plain_in_words(plain, &learned.driver);
+    let section = section.note(format!(
+        "The plain formula nearest to it: {words}. As an entry of the study:"
+    ));
+    let lines = plain.entry.iter();
+    lines.fold(section, |section, line| section.note(format!("`{line}`")))
 }

@@ -71,6 +71,14 @@ impl Edit<'_> {
         self.add_entry(&learned.law.name(), learned.lines())
     }
 
+    /// Adds a formula with its values, [`EffectSpec::of_formula`].
+    ///
+    /// # Errors
+    /// As [`Edit::add_effect`].
+    pub fn add_formula(&mut self, formula: &EffectSpec) -> Result<(), TextError> {
+        self.add_entry(&formula.name, formula.formula_lines())
+    }
+
     /// Adds an effect of this name with its keys.
     fn add_entry(&mut self, kind: &str, mut keys: Vec<String>) -> Result<(), TextError> {
         let study = self.study;

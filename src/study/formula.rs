@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::edit::rounded;
 use super::effect::{Result, stated};
 use super::effect_model::{EffectSpec, Law, Parameter};
 use super::reader::Table;
@@ -76,6 +77,79 @@ pub(super) fn read(table: &Table<'_>) -> Result<EffectSpec> {
         idle: &[],
         even: &[],
     })
+}
+
+impl EffectSpec {
+    /// A formula that stands in no study yet: its name, what it gives, the expression, and each parameter's name, value and bounds.
+    ///
+    /// # Errors
+    /// [`FormulaError`]
+    pub fn of_formula(
+        name: &str,
+        hook: Hook,
+        expression: &str,
+        parameters: &[(&str, f64, [f64; 2])],
+    ) -> std::result::Result<Self, FormulaError> {
+        let names: Vec<&str> = parameters.iter().map(|(name, ..)| *name).collect();
+        let formula = Formula::new(hook, expression, &names)?;
+        let own = |&(short, value, bounds): &(&str, f64, [f64; 2])| Parameter {
+            name: format!("{name}.{short}"),
+            value,
+            bounds: bounds.map(Some),
+            card: None,
+            stated: false,
+        };
+        Ok(Self {
+            kind: KIND.to_owned(),
+            name: name.to_owned(),
+            law: Law::Formula {
+                formula,
+                expression: expression.to_owned(),
+            },
+            parameters: parameters.iter().map(own).collect(),
+            span: 0..0,
+            freed: &[],
+            idle: &[],
+            even: &[],
+        })
+    }
+
+    /// A formula's expression as written; nothing of another effect.
+    pub fn expression(&self) -> &str {
+        match &self.law {
+            Law::Formula { expression, .. } => expression,
+            Law::Card(_) | Law::Learned(_) => "",
+        }
+    }
+
+    /// The lines of a formula's entry in a study, without the header; none of another effect.
+    pub fn formula_lines(&self) -> Vec<String> {
+        let Law::Formula {
+            formula,
+            expression,
+        } = &self.law
+        else {
+            return Vec::new();
+        };
+        let parameter = |p: &Parameter| {
+            let ends = ["lower", "upper"].into_iter().zip(p.bounds);
+            let bounds: String = ends
+                .filter_map(|(end, bound)| Some(format!(", {end} = {:?}", bound?)))
+                .collect();
+            format!(
+                "{} = {{ value = {:?}{bounds} }}",
+                p.short(),
+                rounded(p.value)
+            )
+        };
+        let parameters: Vec<String> = self.parameters.iter().map(parameter).collect();
+        vec![
+            format!("kind = \"{KIND}\""),
+            format!("name = \"{}\"", self.name),
+            format!("{} = \"{expression}\"", formula.hook().name()),
+            format!("parameters = {{ {} }}", parameters.join(", ")),
+        ]
+    }
 }
 
 fn check_keys(table: &Table<'_>) -> Result<()> {

@@ -5,8 +5,8 @@
 
 use gearwear::effects::CATALOGUE;
 use gearwear::learn::diagnose::{
-    CandidateEvidence, Decision, DecisionRule, EffectSet, Evidence, Hypothesis, LawBesideEvidence,
-    LawInsteadEvidence, RemainderEvidence, Verdict, decide,
+    CandidateEvidence, Decision, DecisionRule, EffectSet, Evidence, Hypothesis, LawAloneEvidence,
+    LawBesideEvidence, LawInsteadEvidence, RemainderEvidence, Verdict, decide,
 };
 use proptest::prelude::*;
 
@@ -36,6 +36,7 @@ fn evidence(candidates: Vec<CandidateEvidence>, attainable: f64, unknown: f64) -
         place_laws: Vec::new(),
         time_laws: Vec::new(),
         laws_beside: Vec::new(),
+        law_alone: None,
     }
 }
 
@@ -106,6 +107,7 @@ prop_compose! {
         laws in prop::collection::vec((0..CATALOGUE.len(), 0..CATALOGUE.len(), -5.0..3000.0_f64), 0..=2),
         times in prop::collection::vec((0..CATALOGUE.len(), 0..CATALOGUE.len(), -5.0..3000.0_f64), 0..=1),
         laws_beside in prop::collection::btree_map(0..CATALOGUE.len(), (0.0..3000.0_f64, -5.0..3000.0_f64), 0..=3),
+        alone in prop::option::of((-5.0..3000.0_f64, prop::option::of(-5.0..3000.0_f64))),
     ) -> Evidence {
         let of = |(place, (gain, left)): (usize, (f64, f64))| {
             beside(place, gain, attainable * (1.0 - left), attainable * left)
@@ -115,6 +117,11 @@ prop_compose! {
             time_laws: times.into_iter().map(place_law).collect(),
             laws_beside: laws_beside.into_iter().map(law_beside).collect(),
             place_laws: laws.into_iter().map(place_law).collect(),
+            law_alone: alone.map(|(evidence_gain, beside_effects)| LawAloneEvidence {
+                law: "learned:s as step_from_a_moment".to_owned(),
+                evidence_gain,
+                beside_effects,
+            }),
             ..evidence(candidates, attainable, unknown)
         }
     }
@@ -813,6 +820,36 @@ fn laws_beside_effects_tell_which_is_there() {
     }
     // a law that does little of what a discrepancy does stands for nothing
     assert_eq!(with(laws((400.0, 100.0), (0.0, 20.0))).group, open.group);
+}
+
+/// Half a flank that loses its oil at some moment, d 34: debris grows as it does on the whole, and a discrepancy beside it takes up the rest, 170 of ln evidence
+/// less than a factor on k of that half from that moment on (`compare` of either as a formula). What is really an effect and something else no such law attains.
+#[test]
+fn a_law_alone_is_held_against_effects_beside_something_unknown() {
+    let debris = place("debris_abrasion");
+    let with = |law: Option<(f64, Option<f64>)>| {
+        decided(&Evidence {
+            beside_unknown: vec![beside(debris, 30.0, 70.0, 1070.0)],
+            law_alone: law.map(|(evidence_gain, beside_effects)| LawAloneEvidence {
+                law: "learned:cycles as step_in_approach".to_owned(),
+                evidence_gain,
+                beside_effects,
+            }),
+            ..evidence(vec![candidate(&[debris], 34.0, 70.0)], 1140.0, 410.0)
+        })
+    };
+    let named = EffectSet::new([CATALOGUE[debris]]);
+    let established = with(None);
+    assert_eq!(established.verdict, Verdict::Partial, "{established:?}");
+    assert_eq!(established.effects, std::slice::from_ref(&named));
+    let alone = with(Some((609.0, None)));
+    assert_eq!(alone.verdict, Verdict::Unknown, "{alone:?}");
+    assert!(alone.probability_in_all(&named) < 0.01, "{alone:?}");
+    // behind the discrepancy beside the effect, or a law beside it
+    for behind in [(430.0, None), (609.0, Some(660.0))] {
+        let kept = with(Some(behind));
+        assert_eq!(kept.verdict, Verdict::Partial, "{kept:?}");
+    }
 }
 
 /// The weaker effect of a pair that adds next to nothing mends the form of the stronger one, which is named alone.

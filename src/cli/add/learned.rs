@@ -7,16 +7,19 @@ use serde_json::{Value, json};
 use super::target::{folder, is_free, target, writable, write_whole};
 use super::{AddArgs, CliError, Context, Outcome};
 use crate::effects::Hook;
-use crate::learn::{AddLearnedError, LearnError, LearnedAddition, Share, WantedLaw, add_learned};
-use crate::numeric::written::fixed;
-use crate::study::{Study, WEAR_COEFFICIENT, rounded};
+use crate::learn::{
+    AddLearnedError, LearnError, LearnedAddition, PlainForm, Share, WantedLaw, add_learned,
+};
+use crate::numeric::written::{fixed, significant};
+use crate::report::comparison::NO_INTERVAL;
+use crate::study::{EffectSpec, Study, WEAR_COEFFICIENT, rounded};
 
 /// What the name of a law to be learned begins with.
 pub(super) const PREFIX: &str = "learned:";
 
 /// Learns the law, writes the new study.
 pub(super) fn execute(args: &AddArgs, context: &Context) -> Result<Outcome, CliError> {
-    let wanted = wanted(args)?;
+    let (wanted, shape) = wanted(args)?;
     let study = Study::load(&args.study)?;
     let target = target(args, &study)?;
     is_free(&target, args)?;
@@ -30,7 +33,7 @@ pub(super) fn execute(args: &AddArgs, context: &Context) -> Result<Outcome, CliE
     let data = study.dataset_to_fit()?;
     context.tell_reading(&data);
     let progress = context.progress("add");
-    let found = add_learned(&study, &data, &wanted, &|doing| {
+    let found = add_learned(&study, &data, (&wanted, shape), &|doing| {
         crate::cli::fitting::show(&progress, doing);
     });
     drop(progress);
@@ -40,40 +43,58 @@ pub(super) fn execute(args: &AddArgs, context: &Context) -> Result<Outcome, CliE
         AddLearnedError::Learn(error) => CliError::Unusable(error.to_string()),
     })?;
     let mut edit = study.edit();
-    let own = format!("{}.", wanted.name());
+    let own = match &found.plain {
+        Some(formula) => format!("{}.", formula.name),
+        None => format!("{}.", wanted.name()),
+    };
     for parameter in &found.compared.fit.parameters {
         if !parameter.name.starts_with(&own) {
             edit.set(&parameter.name, rounded(parameter.value));
         }
     }
-    edit.add_learned(&found.law)?;
-    edit.free(&[wanted.name()]);
+    match &found.plain {
+        Some(formula) => {
+            edit.add_formula(formula)?;
+            let names = formula.parameters.iter().map(|p| p.name.clone());
+            edit.free(&names.collect::<Vec<_>>());
+        }
+        None => {
+            edit.add_learned(&found.law)?;
+            edit.free(&[wanted.name()]);
+        }
+    }
     edit.move_between(folder(&args.study), folder(&target))?;
     let new = edit.finish(&target.display().to_string())?;
     write_whole(&target, new.text()).map_err(io)?;
     Ok(outcome(&found, &wanted, &target.display().to_string()))
 }
 
-/// What is asked for.
-fn wanted(args: &AddArgs) -> Result<WantedLaw, CliError> {
+/// What is asked for: the law, and the plain formula that is to stand for its curve.
+fn wanted(args: &AddArgs) -> Result<(WantedLaw, Option<PlainForm>), CliError> {
     if let Some((name, _)) = args.set.first() {
         return Err(CliError::Unusable(format!(
             "--set {name}: a learned law has no parameters to set; write knots and values into the study by hand"
         )));
     }
     let hooks = [Hook::WearFactor, Hook::Profile];
+    let shape = args.form.as_deref().and_then(PlainForm::of_name);
     let hook = match args.form.as_deref() {
         None => Hook::WearFactor,
+        Some(_) if shape.is_some() => Hook::WearFactor,
         Some(form) => hooks
             .into_iter()
             .find(|hook| hook.name() == form)
             .ok_or_else(|| {
                 CliError::Unusable(format!(
-                    "a learned law has no form `{form}`, allowed: \"wear_factor\" (a factor on k), \"profile\" (µm of material removed before the start)"
+                    "a learned law has no form `{form}`, allowed: \"wear_factor\" (a factor on k as a curve), \"profile\" (µm of material removed before the \
+                     start), and for a factor on k by a plain formula: {}",
+                    PlainForm::all().map(PlainForm::name).collect::<Vec<_>>().join(", ")
                 ))
             })?,
     };
-    WantedLaw::of_name(&args.effect, hook).map_err(|error| CliError::Unusable(error.to_string()))
+    let law = WantedLaw::of_name(&args.effect, hook);
+    let law = law.map_err(|error| CliError::Unusable(error.to_string()))?;
+    Ok((law, shape))
 }
 
 /// A law is not learned twice, nor of what the study does not state.
@@ -100,7 +121,12 @@ fn outcome(found: &LearnedAddition, wanted: &WantedLaw, shown: &str) -> Outcome 
         "  {WEAR_COEFFICIENT} = {:?}",
         rounded(found.compared.fit.coefficient)
     );
-    let _ = writeln!(text, "  {}: {}", wanted.name(), law_in_words(found, wanted));
+    match &found.plain {
+        Some(formula) => text += &formula_in_words(found, formula),
+        None => {
+            let _ = writeln!(text, "  {}: {}", wanted.name(), law_in_words(found, wanted));
+        }
+    }
     text += &fit_in_words(found);
     let _ = writeln!(text, "next: gearwear compare {shown}");
     Outcome {
@@ -112,6 +138,27 @@ fn outcome(found: &LearnedAddition, wanted: &WantedLaw, shown: &str) -> Outcome 
         text,
         success: true,
     }
+}
+
+/// A formula in the place of the curve, with its values; lines.
+fn formula_in_words(found: &LearnedAddition, formula: &EffectSpec) -> String {
+    let mut text = format!("  {}: {}\n", formula.name, formula.expression());
+    for parameter in &found.compared.comparison.parameters {
+        let own = formula.parameters.iter().any(|p| p.name == parameter.name);
+        if own {
+            let known = match parameter.interval_95 {
+                Some([low, high]) => format!(
+                    "95 % between {} and {}",
+                    significant(low, 4),
+                    significant(high, 4)
+                ),
+                None => NO_INTERVAL.to_owned(),
+            };
+            let value = significant(parameter.value, 4);
+            let _ = writeln!(text, "  {} = {value}   {known}", parameter.name);
+        }
+    }
+    text
 }
 
 /// What the law spans and where.
@@ -170,6 +217,7 @@ fn document(found: &LearnedAddition, wanted: &WantedLaw) -> Value {
         .map(|t| json!({"size": t.size, "length": t.length, "log_evidence": t.log_evidence}))
         .collect();
     json!({
+        "formula": found.plain.as_ref().map(|formula| json!({"name": formula.name, "wear_factor": formula.expression()})),
         "learned": {
             "name": wanted.name(),
             "acts": wanted.hook.name(),

@@ -1,16 +1,18 @@
-//! Adds a learned law: its size and length by the analytic model, then fitted by the study's own.
+//! Adds a learned law, as the curve or as a plain formula near it: its size and length by the analytic model, then fitted by the study's own.
 
 use super::compare::{CompareError, CompareStage, Compared, contact_of};
 use crate::learn::fitting::measured::Measured;
 use crate::learn::hypothesis::version::ModelVersion;
 use crate::learn::inference::search::Effort;
 use crate::learn::learned::law::{LearnError, TriedProcess, WantedLaw, deviations, fitted_law};
+use crate::learn::learned::plain;
+use crate::learn::learned::plain_form::PlainForm;
 use crate::learn::noise::NoiseModel;
 use crate::learn::prediction::bench::{Workshop, for_looks};
 use crate::learn::prediction::fidelity::Fidelity;
 use crate::measure::Dataset;
 use crate::simulate::forward::ContactKind;
-use crate::study::{LearnedLaw, Study, WEAR_COEFFICIENT};
+use crate::study::{EffectSpec, LearnedLaw, Study, WEAR_COEFFICIENT};
 
 /// Wear histories that looking for size and length takes, for each test, from experience.
 const HISTORIES: usize = 250;
@@ -18,9 +20,11 @@ const HISTORIES: usize = 250;
 /// A learned law, fitted.
 #[derive(Debug, Clone)]
 pub struct LearnedAddition {
-    /// The law with its values.
+    /// The law with its values; those of the analytic model where a formula stands in its place.
     pub law: LearnedLaw,
-    /// Standard deviations of the values.
+    /// The formula in its place, with its values.
+    pub plain: Option<EffectSpec>,
+    /// Standard deviations of the curve's values.
     pub sigma: Vec<f64>,
     /// Sizes and lengths that the analytic model was fitted with.
     pub tried: Vec<TriedProcess>,
@@ -41,14 +45,14 @@ pub enum AddLearnedError {
     Learn(#[from] LearnError),
 }
 
-/// Learns a law beside what the study has, and judges it.
+/// Learns a law beside what the study has, and judges it; `form`: as the plain formula of this form that comes nearest to the curve.
 ///
 /// # Errors
 /// [`AddLearnedError`]
 pub fn add_learned(
     study: &Study,
     data: &Dataset,
-    wanted: &WantedLaw,
+    (wanted, form): (&WantedLaw, Option<PlainForm>),
     watch: &(dyn Fn(CompareStage) + Sync),
 ) -> Result<LearnedAddition, AddLearnedError> {
     let kind = contact_of(study).map_err(CompareError::from)?;
@@ -88,19 +92,40 @@ pub fn add_learned(
         .fit(&bench, &version, noise, &[start], &effort, &told)
         .map_err(CompareError::from)?;
     let found = measured.learn(&bench, &version, &without, wanted, noise, &told)?;
+    let curve = &found.law;
+    let sigma = deviations(curve, &found.fit);
+    let plain = match form {
+        None => None,
+        Some(form) => Some(
+            plain::nearest(
+                (&curve.law, &curve.values, &sigma),
+                measured.longest_test(),
+                form,
+            )
+            .map_err(|why| LearnError::Shape(format!("{}: {why}", wanted.name())))?,
+        ),
+    };
     watch(CompareStage::Members);
     let workshop = measured.workshop(kind).map_err(failed)?;
     let bench = measured.bench(&workshop).map_err(failed)?;
     let without = measured
         .compare(&bench, &version, watch)
         .map_err(CompareError::from)?;
-    let with = version.with(found.law.clone().spec());
+    let added = plain.clone().unwrap_or_else(|| curve.clone().spec());
     let compared = measured
-        .compare(&bench, &with, watch)
+        .compare(&bench, &version.with(added), watch)
         .map_err(CompareError::from)?;
+    let (law, sigma) = match plain {
+        Some(_) => (curve.clone(), sigma),
+        None => (
+            fitted_law(curve, &compared.fit),
+            deviations(curve, &compared.fit),
+        ),
+    };
     Ok(LearnedAddition {
-        law: fitted_law(&found.law, &compared.fit),
-        sigma: deviations(&found.law, &compared.fit),
+        law,
+        sigma,
+        plain: plain.map(|spec| plain::fitted(spec, &compared.fit)),
         tried: found.tried,
         without,
         compared,

@@ -32,6 +32,20 @@ pub struct Evidence {
     /// Free factors on k beside each of several effects that something unknown stands beside; none where one of them is established without.
     #[serde(default)]
     pub laws_beside: Vec<LawBesideEvidence>,
+    /// The best law of the place or the time beside no effect; None where effects beside something unknown are improbable.
+    #[serde(default)]
+    pub law_alone: Option<LawAloneEvidence>,
+}
+
+/// A factor on k by the place or the time as what nobody knows, beside no effect.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LawAloneEvidence {
+    /// `learned:s`, or with its plain form: `learned:s as step_from_a_moment`.
+    pub law: String,
+    /// ln Z(law) over the base model's, by coarse finite elements.
+    pub evidence_gain: f64,
+    /// The most of ln Z(effect and law) over the same, of the effects that laws were fitted beside; None of none.
+    pub beside_effects: Option<f64>,
 }
 
 /// A factor on k as a free smooth function of one variable, fitted beside an effect as what nobody knows.
@@ -123,6 +137,23 @@ impl Evidence {
         let best = laws.max_by(|a, b| a.evidence_gain.total_cmp(&b.evidence_gain))?;
         let own = (self.beside_unknown.iter()).find(|r| r.effects == best.effects)?;
         (best.law_gain >= LAW_IS_ENOUGH * own.remainder_gain).then_some(best)
+    }
+
+    /// ln evidence by which the best law alone is ahead of the best of effects beside something unknown, a discrepancy or a law; None without either.
+    pub fn law_ahead(&self) -> Option<f64> {
+        let law = self.law_alone.as_ref()?;
+        let best = law
+            .beside_effects
+            .into_iter()
+            .chain(self.beside_discrepancy());
+        Some(law.evidence_gain - best.reduce(f64::max)?)
+    }
+
+    /// The most of ln Z(effect and discrepancy) over the base model's; None where none was fitted.
+    pub fn beside_discrepancy(&self) -> Option<f64> {
+        let all = self.beside_unknown.iter();
+        let gains = all.map(|r| r.gain_over_unknown + self.unknown_evidence_gain);
+        gains.reduce(f64::max)
     }
 
     /// Whether there is a discrepancy to be accounted for.

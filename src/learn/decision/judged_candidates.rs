@@ -1,7 +1,8 @@
 //! All fitted candidates with what the decision says of them.
 
 use super::evidence::{
-    CandidateEvidence, Evidence, LawBesideEvidence, LawInsteadEvidence, RemainderEvidence,
+    CandidateEvidence, Evidence, LawAloneEvidence, LawBesideEvidence, LawInsteadEvidence,
+    RemainderEvidence,
 };
 use super::rule::DecisionRule;
 use super::verdict::{Decision, decide};
@@ -68,6 +69,7 @@ impl JudgedCandidates {
             place_laws: place_laws.into_iter().map(instead).collect(),
             time_laws: time_laws.into_iter().map(instead).collect(),
             laws_beside: Vec::new(),
+            law_alone: None,
         };
         Self {
             decision: decide(&evidence, &rule),
@@ -99,8 +101,44 @@ impl JudgedCandidates {
         alike.map(|(_, beside)| beside).collect()
     }
 
-    /// The decision with laws beside the effects that something unknown stands beside.
-    pub(in crate::learn) fn with_laws_beside(mut self, laws: Vec<LawBeside>) -> Self {
+    /// Whether effects beside something unknown are so probable together that something unknown alone is to be held against them.
+    pub(in crate::learn) fn is_beside_unknown(&self) -> bool {
+        let all = self.beside_unknown.iter().map(|beside| {
+            let effects = beside.fitted.candidate.effects.clone();
+            self.decision
+                .probability(&Hypothesis::EffectsAndUnknown(effects))
+        });
+        all.sum::<f64>() >= self.rule.doubt
+    }
+
+    /// The most probable effect beside something unknown, if a law alone gains more than any does beside a discrepancy.
+    pub(in crate::learn) fn behind(&self, law: &LawBeside) -> Vec<&BesideUnknown> {
+        let of = |remainder: &&RemainderEvidence| {
+            let hypothesis = Hypothesis::EffectsAndUnknown(remainder.effects.clone());
+            self.decision.probability(&hypothesis)
+        };
+        let all = self.evidence.beside_unknown.iter();
+        let first = all.max_by(|a, b| of(a).total_cmp(&of(b)));
+        let most = self.evidence.beside_discrepancy();
+        let behind = first.filter(|_| most.is_some_and(|most| most < law.gain));
+        let same = |beside: &&BesideUnknown| {
+            behind.is_some_and(|first| first.effects == beside.fitted.candidate.effects)
+        };
+        self.beside_unknown.iter().filter(same).collect()
+    }
+
+    /// The decision with laws beside the effects that something unknown stands beside, and the best law alone.
+    pub(in crate::learn) fn with_laws_beside(
+        mut self,
+        laws: Vec<LawBeside>,
+        alone: Option<LawBeside>,
+    ) -> Self {
+        let most = laws.iter().map(|law| law.log_evidence).reduce(f64::max);
+        self.evidence.law_alone = alone.map(|alone| LawAloneEvidence {
+            beside_effects: most.map(|most| most - (alone.log_evidence - alone.gain)),
+            law: alone.name,
+            evidence_gain: alone.gain,
+        });
         let log_evidence = laws.iter().map(|law| law.log_evidence);
         let least = log_evidence.fold(f64::INFINITY, f64::min);
         let figures = |law: LawBeside| LawBesideEvidence {
@@ -114,10 +152,19 @@ impl JudgedCandidates {
         self
     }
 
-    /// The form of effects with the largest evidence.
+    /// The form of effects with the largest evidence; their own where that does as well by the same model.
     pub(in crate::learn) fn best_form(&self, effects: &EffectSet) -> Option<&FittedCandidate> {
-        let mut all = self.candidates.iter();
-        all.find(|fitted| fitted.candidate.effects == *effects)
+        let all = self.candidates.iter();
+        let mut forms = all.filter(|fitted| fitted.candidate.effects == *effects);
+        let best = forms.next()?;
+        let own = forms.find(|form| {
+            let is_known = form.fidelity == best.fidelity && form.converged;
+            form.candidate.is_own_form() && is_known && form.does_as_well_as(best)
+        });
+        Some(
+            own.filter(|_| !best.candidate.is_own_form())
+                .unwrap_or(best),
+        )
     }
 
     /// The same of a hypothesis; the base model of nothing missing.

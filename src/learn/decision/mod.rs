@@ -7,7 +7,8 @@ mod rule;
 mod verdict;
 
 pub use evidence::{
-    CandidateEvidence, Evidence, LawBesideEvidence, LawInsteadEvidence, RemainderEvidence,
+    CandidateEvidence, Evidence, LawAloneEvidence, LawBesideEvidence, LawInsteadEvidence,
+    RemainderEvidence,
 };
 pub use rule::DecisionRule;
 pub(in crate::learn) use rule::SURE;

@@ -53,6 +53,12 @@
 //! ```text
 //! exp(ln Z(R and law)/T) o_R/n
 //! ```
+//! A law of the place or the time beside no effect, by the same, is something unknown alone that acts through the mechanics: of what is R's beside something
+//! unknown it takes its part (L: ln of how many laws were tried; the largest of all R)
+//!
+//! ```text
+//! from R and unknown to unknown:   ln odds = (ln Z_law − max_R(ln Z(R and discrepancy), ln Z(R and law)))/T + ln(n/o_R) − L
+//! ```
 //! Δ ln Z_R is the smaller of two figures: with the discrepancy that is most probable without the effect, and with every kind and size of it. By the
 //! first the discrepancy has taken what it can of the effect already, by the second anything that mends the discrepancy is an effect. The share w of
 //! R among the named is the mean of what both give, e^(Δ ln Z_R/T) over its sum, where both are above 0.
@@ -68,6 +74,9 @@ use crate::numeric::logarithm::{log_sum_exp, softplus};
 
 /// Fall of χ² by which another form of an effect may be behind and leave as much.
 const LEAVES_AS_MUCH: f64 = 1.0;
+
+/// ln of the laws and forms of which the best law alone is the best.
+const LAWS_TRIED: f64 = 5.0;
 
 /// Gain of ln evidence beside something unknown below which effects gain alike.
 const LEAST_GAIN: f64 = 1.0;
@@ -152,6 +161,7 @@ pub(super) fn log_probabilities(
         .collect();
     share_with_remainders(&mut logs, evidence, rule, [count, pairs]);
     share_by_laws(&mut logs, evidence, rule);
+    share_with_law_alone(&mut logs, evidence, rule, count);
     let unknown = [logs[&Hypothesis::Unknown], log_sum_exp(&other_causes)];
     logs.insert(Hypothesis::Unknown, log_sum_exp(&unknown));
     for (hypothesis, log) in by_place {
@@ -285,6 +295,30 @@ fn share_by_laws(logs: &mut BTreeMap<Hypothesis, f64>, evidence: &Evidence, rule
     for ((hypothesis, _), weight) in laws.into_iter().zip(weights) {
         logs.insert(hypothesis, together + weight - all);
     }
+}
+
+/// Gives something unknown alone its part of effects beside something unknown, where a law alone does more than these.
+fn share_with_law_alone(
+    logs: &mut BTreeMap<Hypothesis, f64>,
+    evidence: &Evidence,
+    rule: &DecisionRule,
+    singles: f64,
+) {
+    let mut remainders: Vec<&RemainderEvidence> = evidence.beside_unknown.iter().collect();
+    remainders.sort_by(|a, b| a.effects.cmp(&b.effects));
+    let Some(ahead) = evidence.law_ahead() else {
+        return;
+    };
+    let odds = ahead / rule.temper + (singles / rule.remainder_odds).ln() - LAWS_TRIED;
+    let mut unknown = vec![logs[&Hypothesis::Unknown]];
+    for remainder in remainders {
+        let hypothesis = Hypothesis::EffectsAndUnknown(remainder.effects.clone());
+        if let Some(beside) = logs.get_mut(&hypothesis) {
+            unknown.push(*beside - softplus(-odds));
+            *beside -= softplus(odds);
+        }
+    }
+    logs.insert(Hypothesis::Unknown, log_sum_exp(&unknown));
 }
 
 /// ln of what pairs beside something unknown lend to each single effect, as a share of what all beside something unknown have. A pair says that one of

@@ -14,7 +14,8 @@ use crate::learn::checks::goodness_of_fit::GoodnessOfFit;
 use crate::learn::checks::sufficiency::few;
 use crate::learn::decision::judged_candidates::JudgedCandidates;
 use crate::learn::decision::{
-    Decision, DecisionRule, LawBesideEvidence, LawInsteadEvidence, RemainderEvidence, SURE, Verdict,
+    Decision, DecisionRule, LawAloneEvidence, LawBesideEvidence, LawInsteadEvidence,
+    RemainderEvidence, SURE, Verdict,
 };
 use crate::learn::discrepancy::dependence::{self, Driver};
 use crate::learn::discrepancy::residual_drivers::{self, ResidualDrivers};
@@ -104,6 +105,9 @@ pub struct Diagnosis {
     /// Free factors on k beside each of several effects that something unknown stands beside; none where one of them is established without.
     #[serde(default)]
     pub laws_beside: Vec<LawBesideEvidence>,
+    /// The best law of the place or the time beside no effect; None where effects beside something unknown are improbable.
+    #[serde(default)]
+    pub law_alone: Option<LawAloneEvidence>,
     /// The thresholds by which this was decided.
     pub rule: DecisionRule,
     /// Whether effects are named, if only as a group, of which the first leaves no more than noise, or than the analytic model's own error where that decides in
@@ -251,6 +255,7 @@ impl Diagnosis {
             place_laws: posterior.evidence.place_laws.clone(),
             time_laws: posterior.evidence.time_laws.clone(),
             laws_beside: posterior.evidence.laws_beside.clone(),
+            law_alone: posterior.evidence.law_alone.clone(),
             rule: posterior.rule,
             warnings: warnings(context, base, posterior, &findings.not_fitted),
             sparse_regression: names(findings.sparse_regression),

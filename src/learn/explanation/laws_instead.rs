@@ -2,11 +2,16 @@
 
 use super::findings::Findings;
 use crate::effects::{Hook, variables};
-use crate::learn::decision::{CandidateEvidence, LawBesideEvidence, LawInsteadEvidence, Verdict};
+use crate::learn::decision::{
+    CandidateEvidence, Evidence, LawBesideEvidence, LawInsteadEvidence, RemainderEvidence, Verdict,
+};
 use crate::learn::hypothesis::Hypothesis;
 
 /// ln evidence by which a law must be ahead to be spoken of.
 const AHEAD: f64 = 1.0;
+
+/// The same as a share of the law's gain below which an effect does nearly as well.
+const NEARLY: f64 = 0.1;
 
 /// Why a pair is not, in which nothing is a deviation of the profile.
 const BOTH: &str = "one cause that stays at its place does what the two do together";
@@ -39,7 +44,30 @@ pub(super) fn instead(findings: &Findings<'_>) -> Vec<String> {
     };
     (of(&evidence.place_laws, of_places).into_iter())
         .chain(of(&evidence.time_laws, SLOW_CHANGE))
+        .chain(alone(evidence, verdict))
         .collect()
+}
+
+/// What speaks for a law alone instead of the best of effects beside something unknown; nothing where that is named.
+fn alone(evidence: &Evidence, verdict: Verdict) -> Option<String> {
+    let law = evidence.law_alone.as_ref()?;
+    let gain = |r: &&RemainderEvidence| r.gain_over_unknown;
+    let mut single = evidence.beside_unknown.iter();
+    let best = single.by_ref().max_by(|a, b| gain(a).total_cmp(&gain(b)))?;
+    let ahead = evidence.law_ahead()?;
+    let verb = match best.effects.single() {
+        Some(_) => "comes",
+        None => "come",
+    };
+    (ahead > AHEAD && verdict != Verdict::Partial).then(|| {
+        format!(
+            "{} beside something unknown {verb} nearest of the catalogue, but a factor on k by the {} alone ({}) has {ahead:.0} more of ln evidence, by coarse \
+             elements: so no effect is named.",
+            best.effects.in_words(),
+            meaning(&law.law),
+            law.law.replace('_', " ")
+        )
+    })
 }
 
 /// The same of laws of one kind, and why.
@@ -75,8 +103,12 @@ fn sentence(
         Some(_) => "is",
         None => "are",
     };
+    let how = match ahead < NEARLY * law.evidence_gain {
+        true => "is nearly as good",
+        false => "comes nearest",
+    };
     format!(
-        "A fit with {} is nearly as good, but a free factor on k by the {meaning} ({}){beside} has {ahead:.0} more of ln evidence: {why}. So \
+        "A fit with {} {how}, but a free factor on k by the {meaning} ({}){beside} has {ahead:.0} more of ln evidence: {why}. So \
          {replaced} {verb} not named.",
         best.effects.in_words(),
         law.law
@@ -85,10 +117,15 @@ fn sentence(
 
 /// What the variable of a law is.
 fn meaning(law: &str) -> &str {
-    let driver = law.split(':').nth(1).unwrap_or_default();
+    let driver = law.split([':', ' ']).nth(1).unwrap_or_default();
     let meaning = variables::find(driver).map_or(driver, |v| v.meaning);
-    // which way it counts is told elsewhere
-    meaning.split(',').next().unwrap_or(meaning)
+    short(meaning)
+}
+
+/// A variable's meaning without what is told elsewhere: which way it counts, what it is in other laws.
+pub(super) fn short(meaning: &str) -> &str {
+    let end = meaning.find([',', '(']).unwrap_or(meaning.len());
+    meaning[..end].trim_end()
 }
 
 /// Why one effect rather than others stands beside something unknown, where laws beside each told that; none where they did not.
@@ -114,7 +151,7 @@ fn sentence_beside(best: &LawBesideEvidence, others: &[&LawBesideEvidence], ahea
          {0} comes first.",
         best.effects.in_words(),
         meaning(&best.law),
-        best.law,
+        best.law.replace('_', " "),
         names.join(" or "),
     )
 }

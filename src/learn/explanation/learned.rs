@@ -1,15 +1,24 @@
 //! A learned law in words.
 
 use super::diagnosis::Diagnosis;
+use super::laws_instead::short;
 use crate::effects::variables;
 use crate::learn::model_search::learned_drivers::LearnedAnswer;
+use crate::learn::model_search::plain_laws::{PlainLaw, PlainParameter};
 use crate::learn::prediction::fidelity::Fidelity;
+use crate::numeric::written;
+
+/// ln evidence by which a plain formula may be behind the curve to stand for it, or is ahead to be better.
+const AS_GOOD: f64 = 3.0;
 
 impl Diagnosis {
     /// With a law learned from the measurements, said beside what else there is to say.
     pub(in crate::learn) fn with_learned(mut self, learned: Option<LearnedAnswer>) -> Self {
         if let Some(learned) = &learned {
             self.reasons.push(sentence(learned));
+            let plain = plain_in_its_place(learned);
+            self.reasons
+                .extend(plain.map(|plain| said_of_plain(learned, plain)));
             let add = match carries_over(learned) {
                 _ if !learned.worse_tests.is_empty() => None,
                 Some(true) => Some("and see the held-out error fall"),
@@ -18,8 +27,9 @@ impl Diagnosis {
                 Some(false) => None,
             };
             if let Some(why) = add {
+                let form = plain.map_or(String::new(), |plain| format!(" --form {}", plain.form));
                 self.next_step = format!(
-                    "gearwear add STUDY {}, {why}; or: {}",
+                    "gearwear add STUDY {}{form}, {why}; or: {}",
                     learned.name, self.next_step
                 );
             }
@@ -33,6 +43,86 @@ impl Diagnosis {
 fn carries_over(learned: &LearnedAnswer) -> Option<bool> {
     let [before, after] = learned.holdout_chi2_per_point?;
     Some(after < before)
+}
+
+/// The plain formula in a law's place where it does as well as the curve or better.
+fn plain_in_its_place(learned: &LearnedAnswer) -> Option<&PlainLaw> {
+    let plain = learned.plain.as_ref()?;
+    let as_well = plain.evidence_gain > learned.evidence_gain - AS_GOOD && plain.converged;
+    as_well.then_some(plain)
+}
+
+/// That a plain formula does as well as a law's curve, or better.
+fn said_of_plain(learned: &LearnedAnswer, plain: &PlainLaw) -> String {
+    let [_, after] = plain.fit_chi2_per_point;
+    let held = (plain.holdout_chi2_per_point).map_or(String::new(), |[_, after]| {
+        format!(", of the held-out tests {after:.2}")
+    });
+    let more = plain.evidence_gain - learned.evidence_gain;
+    let than = match more > AS_GOOD {
+        true => format!(
+            "better ({more:.0} more of ln evidence; beside it the curve only rounds it off, and its band is too narrow)"
+        ),
+        false => "as well".to_owned(),
+    };
+    format!(
+        "A plain formula does {than}: {}. χ² per point {after:.2}{held}.",
+        plain_in_words(plain, &learned.driver)
+    )
+}
+
+/// A parameter's value with its unit.
+fn with_unit(parameter: &PlainParameter) -> String {
+    let value = written::significant(parameter.value, 3);
+    match parameter.unit.as_str() {
+        "-" => value,
+        unit => format!("{value} {}", written::unit(unit)),
+    }
+}
+
+/// A plain formula with its values: what it is, over which values of `driver`.
+pub(crate) fn plain_in_words(plain: &PlainLaw, driver: &str) -> String {
+    let value = |name: &str| {
+        let own = plain.parameters.iter().find(|p| p.name == name);
+        own.map_or(String::new(), with_unit)
+    };
+    let (factor, unit) = (value("factor"), driver);
+    let (shape, part) = match plain.form.split_once('_') {
+        Some((shape, "in_approach")) => (shape, ", before the pitch point alone".to_owned()),
+        Some((shape, "in_recess")) => (shape, ", behind the pitch point alone".to_owned()),
+        Some((shape, _)) => (shape, format!(", from {} on", value("from"))),
+        None => (plain.form.as_str(), String::new()),
+    };
+    let words = match shape {
+        "step" => format!(
+            "a step of {unit} at {}, k times {factor} beyond it",
+            value("at")
+        ),
+        "band" => format!(
+            "a band of {unit} about {}, {} wide, k times {factor} in it",
+            value("centre"),
+            value("width")
+        ),
+        "hump" => format!(
+            "a bell of {unit} about {} with a standard deviation of {}, k times {factor} in its middle",
+            value("centre"),
+            value("width")
+        ),
+        "wave" => format!(
+            "a wave of {unit} with a period of {}, k times {factor} at {} and once in every period",
+            value("period"),
+            value("crest")
+        ),
+        "decay" => format!(
+            "an exponential decay of {unit}, k times {factor} at the start, falling to 1/e of the difference in {}",
+            value("scale")
+        ),
+        "growth" => format!(
+            "steady growth with {unit}, k times {factor} from one end of its range to the other"
+        ),
+        _ => format!("a power of {unit}, exponent {}", value("exponent")),
+    };
+    words + &part
 }
 
 fn sentence(learned: &LearnedAnswer) -> String {
@@ -86,7 +176,7 @@ fn sentence(learned: &LearnedAnswer) -> String {
         )
     });
     let variable = variables::find(&learned.driver);
-    let meaning = variable.map_or(String::new(), |v| format!(" ({})", v.meaning));
+    let meaning = variable.map_or(String::new(), |v| format!(" ({})", short(v.meaning)));
     format!(
         "A learned law: k times {:.2} to {:.2}{on}, following {}{meaning}, takes χ² per point from {before:.2} to {after:.2}{held} ({by}){next}.{stopped}{not}{worse}",
         least.exp(),

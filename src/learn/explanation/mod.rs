@@ -18,5 +18,6 @@ mod warnings;
 mod wording;
 
 pub use diagnosis::{CHECK_FIRST, Diagnosis, Named, Screened};
+pub(crate) use learned::plain_in_words;
 pub use ranked::{ParameterValue, Ranked};
 pub use remainder::Remainder;

@@ -16,7 +16,7 @@ const FEW: usize = 8;
 /// Share of a driver's values, at each end, that lie beyond the outermost knots.
 const BEYOND: f64 = 0.005;
 /// Drivers that grow from nothing in every test.
-const FROM_ZERO: &[&str] = &[
+pub(super) const FROM_ZERO: &[&str] = &[
     "cycles",
     "contacts",
     "hours",

@@ -56,6 +56,9 @@ pub enum LearnError {
     /// The measurements say nothing about it.
     #[error("{0}")]
     Driver(String),
+    /// It cannot have the shape that is asked for.
+    #[error("{0}")]
+    Shape(String),
     /// There is no fit.
     #[error(transparent)]
     Fit(#[from] FitError),
@@ -249,7 +252,7 @@ impl Measured<'_> {
 }
 
 /// A version whose free parameters start where `fit` ended.
-fn starting_at(version: &ModelVersion, fit: &Fit) -> ModelVersion {
+pub(super) fn starting_at(version: &ModelVersion, fit: &Fit) -> ModelVersion {
     let mut version = version.clone();
     for free in &mut version.free {
         if let Some(found) = fit.parameters.iter().find(|p| p.name == free.name) {

@@ -2,3 +2,6 @@
 
 pub(super) mod knots;
 pub(super) mod law;
+pub(super) mod plain;
+pub(super) mod plain_form;
+pub(super) mod shapes;

@@ -9,11 +9,12 @@ use rayon::prelude::*;
 use super::beside_unknown::BesideUnknown;
 use super::context::Context;
 use super::learned_drivers;
+use crate::learn::candidates::fitted_candidate::BaseFit;
 use crate::learn::hypothesis::EffectSet;
 
 /// The best law beside an effect.
 pub(in crate::learn) struct LawBeside {
-    /// The effect.
+    /// The effect; none of a law alone.
     pub(in crate::learn) effects: EffectSet,
     /// `learned:s`, `learned:radius:pinion`, `learned:cycles`.
     pub(in crate::learn) name: String,
@@ -21,6 +22,17 @@ pub(in crate::learn) struct LawBeside {
     pub(in crate::learn) log_evidence: f64,
     /// ln Z(effect and law) − ln Z(effect) by the same.
     pub(in crate::learn) gain: f64,
+}
+
+/// The best law beside no effect, as a curve or as a plain formula; None where the analytic model can fit none.
+pub(in crate::learn) fn alone(context: &Context<'_>, base: &BaseFit) -> Option<LawBeside> {
+    let (name, log_evidence, gain) = learned_drivers::place_or_time(context, &base.fitted)?;
+    Some(LawBeside {
+        effects: EffectSet::new([]),
+        name,
+        log_evidence,
+        gain,
+    })
 }
 
 /// The best law beside each of `effects`; none of one that the analytic model cannot fit.

@@ -8,14 +8,15 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::context::Context;
+use super::law_fits::{chi2, mean_square, screening_noise, without};
+use super::plain_laws::{PlainLaw, plain_law};
 use crate::effects::Hook;
 use crate::learn::candidates::fitted_candidate::FittedCandidate;
 use crate::learn::discrepancy::dependence::Driver;
 use crate::learn::fitting::fitted::Fit;
 use crate::learn::fitting::measured::Measured;
-use crate::learn::inference::search::Effort;
 use crate::learn::learned::law::{LearnedFit, WantedLaw, deviations};
-use crate::learn::noise::NoiseModel;
+use crate::learn::learned::shapes::Shape;
 use crate::learn::prediction::bench::Bench;
 use crate::learn::prediction::fidelity::Fidelity;
 use crate::study::Role;
@@ -89,6 +90,9 @@ pub struct LearnedAnswer {
     /// Whether its fit converged: if not, the values are those at which it stopped.
     #[serde(default = "yes")]
     pub converged: bool,
+    /// The plain formula that comes nearest to it, fitted in its place by the same model; None where none of its shapes does.
+    #[serde(default)]
+    pub plain: Option<PlainLaw>,
     /// Fit tests that it leaves worse than they were, each with χ² per point without the law and with it: what acts there differs from test to test.
     #[serde(default)]
     pub worse_tests: Vec<(String, [f64; 2])>,
@@ -131,6 +135,18 @@ impl FittedLaws {
         Self { without, laws, by }
     }
 
+    /// The first law's curve as the plain formula of the shapes that are meant.
+    fn plain(
+        &self,
+        bench: &Bench<'_>,
+        context: &Context<'_>,
+        known: &FittedCandidate,
+        is_meant: impl Fn(Shape) -> bool,
+    ) -> Option<PlainLaw> {
+        let (_, best) = self.laws.first()?;
+        plain_law(bench, context, known, (&self.without, best), is_meant)
+    }
+
     fn gain(&self, law: &LearnedFit) -> f64 {
         law.log_evidence - self.without.log_evidence
     }
@@ -158,14 +174,18 @@ pub(in crate::learn) fn learned_driver(
     let mut screened = screened(context, known, DRIVERS, CLOSELY)?;
     // a study whose own model is the analytic one is decided by it
     if context.fidelity == Fidelity::Screening {
-        return answer(context, &screened, screened.others(1).collect());
+        let mut own = answer(context, &screened, screened.others(1).collect())?;
+        own.plain = screened.plain(context.middle, context, known, |_| true);
+        return Some(own);
     }
     let closely = brought_forward(&mut screened.laws, |(law, _)| {
         follows.is_some_and(|driver| is_of(law.driver.name, driver))
     });
     let decided = decided(context.exact, context, known, &screened, closely)?;
     let others = decided.others(1).chain(screened.others(closely)).collect();
-    answer(context, &decided, others)
+    let mut own = answer(context, &decided, others)?;
+    own.plain = decided.plain(context.exact, context, known, |_| true);
+    Some(own)
 }
 
 /// Whether a law's variable is what a discrepancy mostly follows.
@@ -186,8 +206,8 @@ fn brought_forward<T>(laws: &mut [T], is_meant: impl Fn(&T) -> bool) -> usize {
     }
 }
 
-/// The law of one of these `drivers` beside what is `known` that has the greatest evidence, and its gain over the same without it; None where it is
-/// not worth its freedom.
+/// The law of one of these `drivers` beside what is `known` that has the greatest evidence, and its gain over the same without it, as a curve or as a plain
+/// formula that no effect of the catalogue has; None where it is not worth its freedom.
 pub(in crate::learn) fn best_of(
     context: &Context<'_>,
     known: &FittedCandidate,
@@ -221,11 +241,17 @@ pub(in crate::learn) fn best_of_worth(
         )?
     };
     let answer = answer(context, &ranked, Vec::new())?;
-    Some((answer.name, answer.evidence_gain))
+    let bench = if own { context.middle } else { context.exact };
+    let plain = ranked.plain(bench, context, known, Shape::is_of_no_effect);
+    let plain = plain.filter(|plain| plain.converged);
+    let gain = plain.map_or(answer.evidence_gain, |plain| {
+        plain.evidence_gain.max(answer.evidence_gain)
+    });
+    Some((answer.name, gain))
 }
 
 /// Of the best law of the place and the best of the time by the analytic model the one that has the greater evidence beside what is `known` by coarse
-/// finite elements, that evidence, and its gain over the same without it.
+/// finite elements, as a curve or as a plain formula that no effect of the catalogue has: its name, that evidence, and its gain over the same without it.
 pub(in crate::learn) fn place_or_time(
     context: &Context<'_>,
     known: &FittedCandidate,
@@ -234,7 +260,13 @@ pub(in crate::learn) fn place_or_time(
         let screened = screened(context, known, drivers, 1)?;
         let ranked = decided(context.middle, context, known, &screened, 1)?;
         let (law, best) = ranked.laws.first()?;
-        Some((law.name(), best.log_evidence, ranked.gain(best)))
+        let (name, gain) = (law.name(), ranked.gain(best));
+        let form = ranked.plain(context.middle, context, known, Shape::is_of_no_effect);
+        let form = form.filter(|form| form.converged && form.evidence_gain > gain);
+        let (name, gain) = form.map_or((name.clone(), gain), |form| {
+            (format!("{name} as {}", form.form), form.evidence_gain)
+        });
+        Some((name, ranked.without.log_evidence + gain, gain))
     };
     let best = [PLACES, TIMES].par_iter().filter_map(of_kind);
     best.max_by(|a, b| a.1.total_cmp(&b.1))
@@ -251,15 +283,7 @@ fn screened(
     let (measured, version) = (likelihood.measured, &known.candidate.version);
     let own = context.fidelity == Fidelity::Screening;
     let bench = if own { context.middle } else { context.hertz };
-    let noise = NoiseModel {
-        // what finite elements make else is not to be learned as a law
-        model_error: if own {
-            likelihood.noise.model_error
-        } else {
-            Some(Fidelity::Screening.model_error())
-        },
-        ..likelihood.noise
-    };
+    let noise = screening_noise(context);
     let without = without(context, known, bench, noise)?;
     let study = measured.study();
     let wanted: Vec<WantedLaw> = (drivers.iter())
@@ -305,24 +329,6 @@ fn decided(
     Some(FittedLaws::new(without, laws, Fidelity::Full))
 }
 
-/// The model without a law, fitted from where it is known to stand.
-fn without(
-    context: &Context<'_>,
-    known: &FittedCandidate,
-    bench: &Bench<'_>,
-    noise: NoiseModel,
-) -> Option<Fit> {
-    let likelihood = &context.likelihood;
-    let (_, start) = likelihood.arguments(&known.candidate.parameters, &known.found.state);
-    let effort = Effort {
-        settle: 0,
-        ..Effort::for_simulations()
-    };
-    let version = &known.candidate.version;
-    let fit = (likelihood.measured).fit(bench, version, noise, &[start], &effort, &|_| {});
-    fit.ok()
-}
-
 /// The best law, if it is worth its freedom.
 fn answer(
     context: &Context<'_>,
@@ -360,6 +366,7 @@ fn answer(
         holdout_chi2_per_point: both(Role::Holdout),
         decided_by: ranked.by,
         converged: best.fit.converged,
+        plain: None,
         worse_tests: worse_tests(measured, &ranked.without, &best.fit),
         others,
     })
@@ -385,23 +392,6 @@ fn is_worse([before, after]: [f64; 2]) -> bool {
 /// residuals grow, where their correlated model error takes up what the law leaves.
 fn is_worth(gain: f64, [before, after]: [f64; 2]) -> bool {
     gain >= LEAST_GAIN && after < before
-}
-
-/// χ² per point of the tests with a role; None if they have no points.
-fn chi2(measured: &Measured<'_>, fit: &Fit, role: Role) -> Option<f64> {
-    mean_square(measured, fit, |test| measured.roles[test] == role)
-}
-
-/// χ² per point of some tests, by their places in the study; None if they have no points.
-fn mean_square(
-    measured: &Measured<'_>,
-    fit: &Fit,
-    is_meant: impl Fn(usize) -> bool,
-) -> Option<f64> {
-    let rows = measured.data.observations.iter().zip(&fit.rows);
-    let own = rows.filter(|(o, _)| is_meant(o.test));
-    let squares: Vec<f64> = own.map(|(_, row)| row.standardised.powi(2)).collect();
-    (!squares.is_empty()).then(|| squares.iter().sum::<f64>() / squares.len() as f64)
 }
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 
 use super::{NOISE_MODEL, figures, means, name, parameters, unknown_name};
 use crate::learn::diagnose::{
-    CHECK_FIRST, Diagnosis, Hypothesis, LawBesideEvidence, NextExperiment, NextTest, Ranked,
-    Screened, Verdict,
+    CHECK_FIRST, Diagnosis, Hypothesis, LawAloneEvidence, LawBesideEvidence, NextExperiment,
+    NextTest, Ranked, Screened, Verdict,
 };
 use crate::numeric::written::{count, ended, fixed, plain, probability, significant};
 use crate::report::html::{Cell, Page, Section, Table};
@@ -89,7 +89,10 @@ fn ranking(diagnosis: &Diagnosis) -> Section {
             )
         });
     let of_unknown = of_unknown.map_or_else(String::new, |text| {
-        text.to_owned() + &of_pairs.collect::<String>() + &of_laws(&diagnosis.laws_beside)
+        text.to_owned()
+            + &of_pairs.collect::<String>()
+            + &of_laws(&diagnosis.laws_beside)
+            + &of_law_alone(diagnosis.law_alone.as_ref())
     });
     Section::new("Ranking").table(table).note(format!(
         "χ² per point: 1 is the noise floor. ln evidence over the base: how much more probable the data are with the effect, \
@@ -106,7 +109,7 @@ fn of_laws(laws: &[LawBesideEvidence]) -> String {
             format!(
                 "beside {} ({}) {}",
                 law.effects.in_words(),
-                law.law,
+                law.law.replace('_', " "),
                 fixed(law.evidence_gain, 0)
             )
         })
@@ -119,6 +122,17 @@ fn of_laws(laws: &[LawBesideEvidence]) -> String {
          between these effects, and not the figure over unknown.",
         each.join(", ")
     )
+}
+
+/// What the best law alone gains, where one was fitted.
+fn of_law_alone(law: Option<&LawAloneEvidence>) -> String {
+    law.map_or_else(String::new, |law| {
+        format!(
+            " The best factor on k alone ({}) has {} over the base: where that is more than an effect with something unknown beside it, something unknown alone takes its place.",
+            law.law.replace('_', " "),
+            fixed(law.evidence_gain, 0)
+        )
+    })
 }
 
 /// What belongs to the column over something unknown alone, where there is one: effects were tried with something unknown beside them.

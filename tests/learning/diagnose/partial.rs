@@ -92,13 +92,14 @@ fn an_effect_beside_the_weather_is_told_by_laws_beside_it() {
         let own = by_laws.iter().find(|l| l.effects.to_string() == name);
         own.unwrap_or_else(|| panic!("{name}: {by_laws:?}"))
     };
-    assert_eq!(of(there).law, "learned:cycles");
+    // what is there is a wave
+    assert_eq!(of(there).law, "learned:cycles as wave");
     assert!(of(there).evidence_gain > of(not_there).evidence_gain + 10.0);
     let page = report::diagnosis::page("", &found, "study.toml");
     let ranking = (page.sections.iter())
         .find(|section| section.heading == "Ranking")
         .unwrap();
-    let said = "beside approach_recess (learned:cycles)";
+    let said = "beside approach_recess (learned:cycles as wave)";
     assert!(ranking.notes[0].contains(said), "{:?}", ranking.notes);
     let beside = |name: &str| found.probabilities[&format!("{name}+unknown")];
     assert!(

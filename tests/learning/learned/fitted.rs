@@ -187,6 +187,64 @@ fn a_soft_band_on_one_flank_is_found_where_it_is() {
     assert!(wrong > 0.5 * without, "{without} {wrong}");
 }
 
+/// A smooth curve makes waves of a step, before it and behind: as a formula it is where it was, and predicts the held-out test as well or better.
+#[test]
+fn a_step_is_offered_as_a_step() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = study(folder.path(), "1 + 0.3*(1 + tanh((cycles - 4e5)/1e3))", 11);
+    let diagnosis = folder.path().join("diagnosed");
+    let output = gearwear()
+        .args(["diagnose", "--quiet", "-o"])
+        .args([&diagnosis, &path])
+        .output()
+        .unwrap();
+    assert!(output.status.success());
+    let text = std::fs::read_to_string(diagnosis.join("diagnosis.json")).unwrap();
+    let said: Value = serde_json::from_str(&text).unwrap();
+    let learned = &said["learned"];
+    assert_eq!(learned["name"], "learned:cycles", "{}", said["sentence"]);
+    let plain = &learned["plain"];
+    assert_eq!(plain["form"], "step", "{plain}");
+    let gain = |law: &Value| law["evidence_gain"].as_f64().unwrap();
+    assert!(gain(plain) > gain(learned), "{plain}");
+    let next = said["next_step"].as_str().unwrap();
+    assert!(next.contains("learned:cycles --form step"), "{next}");
+
+    let new = folder.path().join("stepped.toml");
+    let output = gearwear()
+        .args(["add", "--json", "--quiet"])
+        .arg(&path)
+        .args(["learned:cycles", "--form", "step", "-o"])
+        .arg(&new)
+        .output()
+        .unwrap();
+    let said: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let [without, with] = held_out(&said);
+    assert!(with < 0.4 * without && with < 1.2, "{without} {with}");
+    let stepped = Study::load(&new).unwrap();
+    let step = &stepped.effects()[0];
+    assert_eq!(step.name, "step_of_cycles");
+    let value = |name: &str| {
+        let own = step.parameters.iter().find(|p| p.short() == name);
+        own.unwrap().value
+    };
+    assert!((value("factor") - 1.6).abs() < 0.1, "{step:?}");
+    assert!((value("at") - 4e5).abs() < 2e4, "{step:?}");
+    assert_eq!(stepped.free().len(), 3);
+    // a curve that has no such shape is told so
+    let refused = gearwear()
+        .args(["add", "--quiet", "--force"])
+        .arg(&path)
+        .args(["learned:cycles", "--form", "power"])
+        .output()
+        .unwrap();
+    let says = String::from_utf8_lossy(&refused.stderr);
+    assert!(
+        says.contains("cannot have the form power, allowed: step, band"),
+        "{says}"
+    );
+}
+
 #[test]
 fn what_cannot_be_learned_is_said() {
     let folder = tempfile::tempdir().unwrap();
