@@ -52,14 +52,14 @@ pub(super) fn instead(findings: &Findings<'_>) -> Vec<String> {
 fn alone(evidence: &Evidence, verdict: Verdict) -> Option<String> {
     let law = evidence.law_alone.as_ref()?;
     let gain = |r: &&RemainderEvidence| r.gain_over_unknown;
-    let mut single = evidence.beside_unknown.iter();
-    let best = single.by_ref().max_by(|a, b| gain(a).total_cmp(&gain(b)))?;
+    let all = evidence.beside_unknown.iter();
+    let best = all.max_by(|a, b| gain(a).total_cmp(&gain(b)))?;
     let ahead = evidence.law_ahead()?;
     let verb = match best.effects.single() {
         Some(_) => "comes",
         None => "come",
     };
-    (ahead > AHEAD && verdict != Verdict::Partial).then(|| {
+    (ahead > AHEAD && verdict == Verdict::Unknown).then(|| {
         format!(
             "{} beside something unknown {verb} nearest of the catalogue, but a factor on k by the {} alone ({}) has {ahead:.0} more of ln evidence, by coarse \
              elements: so no effect is named.",

@@ -127,3 +127,84 @@ impl PlainForm {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::Local;
+    use crate::effects::formula::Formula;
+    use crate::learn::learned::shapes::tests::anywhere;
+
+    /// The factor of a form with these values at a place.
+    fn factor(name: &str, law: &Learned, values: &[f64], at: &Local) -> f64 {
+        let form = PlainForm::of_name(name).unwrap();
+        assert!(form.suits(law), "{name}");
+        let parameters = form.parameters(law, 1e6);
+        let names: Vec<&str> = parameters.iter().map(|p| p.name).collect();
+        let formula = Formula::new(Hook::WearFactor, &form.formula(law, 1e6), &names).unwrap();
+        formula.build(values).wear_factor(at)
+    }
+
+    fn law(driver: &str, from: f64, to: f64) -> Learned {
+        let knots: Vec<f64> = (0..25)
+            .map(|n| from + (to - from) * f64::from(n) / 24.0)
+            .collect();
+        Learned::new(Hook::WearFactor, driver, None, &knots).unwrap()
+    }
+
+    /// Three times k on its part, k itself on the other.
+    #[test]
+    fn a_part_is_the_one_that_is_named() {
+        let of_time = law("cycles", 0.0, 1e6);
+        let before = Local {
+            cycles: 9e5,
+            approach: true,
+            ..anywhere()
+        };
+        let behind = Local {
+            approach: false,
+            ..before
+        };
+        let early = Local {
+            cycles: 1e5,
+            ..before
+        };
+        let step = [3.0, 5e5];
+        for (name, expected) in [
+            ("step", [3.0, 3.0, 1.0]),
+            ("step_in_approach", [3.0, 1.0, 1.0]),
+            ("step_in_recess", [1.0, 3.0, 1.0]),
+        ] {
+            let found = [before, behind, early].map(|at| factor(name, &of_time, &step, &at));
+            for (found, expected) in found.into_iter().zip(expected) {
+                assert!(
+                    (found - expected).abs() < 1e-6,
+                    "{name}: {found} {expected}"
+                );
+            }
+        }
+        // a band about s = -1.5 mm from 500 000 cycles on
+        let of_place = law("s", -5.0, 5.0);
+        let values = [3.0, -1.5, 2.0, 5e5];
+        let beside = Local {
+            path: 2.0,
+            ..before
+        };
+        for (at, expected) in [(before, 3.0), (beside, 1.0), (early, 1.0)] {
+            let found = factor("band_from_a_moment", &of_place, &values, &at);
+            assert!((found - expected).abs() < 1e-3, "{found} {expected}");
+        }
+    }
+
+    /// A form is found by its name, and suits no variable that it says nothing of.
+    #[test]
+    fn names_are_read_as_they_are_written() {
+        for form in PlainForm::all() {
+            assert_eq!(PlainForm::of_name(&form.name()), Some(form));
+        }
+        let of_place = law("s", -5.0, 5.0);
+        let suits = |name: &str| PlainForm::of_name(name).unwrap().suits(&of_place);
+        assert!(suits("step") && suits("step_from_a_moment"));
+        assert!(!suits("step_in_approach") && !suits("decay") && !suits("growth_from_a_moment"));
+    }
+}

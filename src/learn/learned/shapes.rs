@@ -358,7 +358,7 @@ fn middle(law: &Learned) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::effects::formula::Formula;
     use crate::effects::{Hook, Local};
@@ -370,7 +370,7 @@ mod tests {
         Learned::new(Hook::WearFactor, driver, member, &knots).unwrap()
     }
 
-    fn anywhere() -> Local {
+    pub(in crate::learn::learned) fn anywhere() -> Local {
         Local {
             member: Member::Pinion,
             radius: 26.4,
