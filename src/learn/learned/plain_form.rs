@@ -183,9 +183,15 @@ mod tests {
                 );
             }
         }
-        // a band about s = -1.5 mm from 500 000 cycles on
+        // the picture shows it where and when it acts
         let of_place = law("s", -5.0, 5.0);
         let values = [3.0, -1.5, 2.0, 5e5];
+        let shown = Shape::Band.at_knots(&of_place, &values);
+        assert_eq!(shown, Shape::Band.at_knots(&of_place, &values[..3]));
+        let rise = shown.iter().copied().fold(0.0, f64::max) - shown[0];
+        // the edges reach a little into the band
+        assert!((rise - 3f64.ln()).abs() < 1e-2, "{rise}");
+        // a band about s = -1.5 mm from 500 000 cycles on
         let beside = Local {
             path: 2.0,
             ..before

@@ -163,19 +163,21 @@ impl Shape {
         }
     }
 
-    /// ln factor at a value of the variable.
+    /// ln factor at a value of the variable; values behind those of the shape, such as when it begins, are passed over.
     fn logarithm(self, law: &Learned, x: f64, values: &[f64]) -> f64 {
         let [first, last] = ends(law);
         let edge = EDGE * (last - first);
         let share = match (self, values) {
-            (Self::Step, [_, at]) => 0.5 * (1.0 + ((x - at) / edge).tanh()),
-            (Self::Band, [_, centre, width]) => {
+            (Self::Step, [_, at, ..]) => 0.5 * (1.0 + ((x - at) / edge).tanh()),
+            (Self::Band, [_, centre, width, ..]) => {
                 let side = |sign: f64| ((x - centre + sign * 0.5 * width) / edge).tanh();
                 0.5 * (side(1.0) - side(-1.0))
             }
-            (Self::Hump, [_, centre, width]) => (-0.5 * ((x - centre) / width).powi(2)).exp(),
-            (Self::Wave, [_, crest, period]) => 0.5 * (1.0 + (TAU * (x - crest) / period).cos()),
-            (Self::Decay, [_, scale]) => (-x / scale).exp(),
+            (Self::Hump, [_, centre, width, ..]) => (-0.5 * ((x - centre) / width).powi(2)).exp(),
+            (Self::Wave, [_, crest, period, ..]) => {
+                0.5 * (1.0 + (TAU * (x - crest) / period).cos())
+            }
+            (Self::Decay, [_, scale, ..]) => (-x / scale).exp(),
             (Self::Growth, [factor]) => return factor.ln() * (x - first) / (last - first),
             (Self::Power, [exponent]) => {
                 let middle = middle(law);
