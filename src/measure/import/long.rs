@@ -18,8 +18,8 @@ use super::numbers::{counts_without_thousands, with_points};
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
 use super::{
-    ImportError, Sheet, cell_name, counts, decimal_commas, deviations, multiples, nameless,
-    no_values, second_header, teeth_across,
+    ImportError, Sheet, cell_name, conditions_above, counts, decimal_commas, deviations, multiples,
+    nameless, no_values, second_header, teeth_across,
 };
 use crate::measure::{Quantity, names};
 use line::Line;
@@ -114,12 +114,33 @@ fn of_sheet(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
         .zip(&stops)
         .map(|(own, stops)| of_columns((own, sheet, head), (differences, weighed, stops), wanted))
         .collect::<Result<_>>()?;
-    let joined = tables.into_iter().reduce(Long::joined);
-    Ok(joined.map(|long| Long {
+    let Some(joined) = tables.into_iter().reduce(Long::joined) else {
+        return Ok(None);
+    };
+    let long = agreeing(joined, (sheet, head), wanted)?;
+    Ok(Some(Long {
         arranged: [said, long.arranged].concat(),
         left_out: [left_out, long.left_out].concat(),
         ..long
     }))
+}
+
+/// A table that is refused where rows above its header state other gears than the study's, or conditions that are not those of its one test.
+fn agreeing(mut long: Long, (sheet, head): (&Sheet, usize), wanted: &Wanted<'_>) -> Result<Long> {
+    let test = the_one(long.entries.iter().map(|entry| entry.test.as_str()));
+    let member = the_one(long.entries.iter().map(|entry| entry.member));
+    let compared = conditions_above::agree(sheet, head, (test, member), wanted)?;
+    let passed_over = &mut long.titles.passed_over;
+    for (row, words) in passed_over.extract_if(.., |(row, _)| compared.contains(&(*row - 1))) {
+        (long.arranged).push(format!("row {row}, `{words}`: as in the study"));
+    }
+    Ok(long)
+}
+
+/// What all are, if they are the same.
+fn the_one<T: PartialEq>(mut all: impl Iterator<Item = T>) -> Option<T> {
+    let first = all.next()?;
+    all.all(|other| other == first).then_some(first)
 }
 
 /// The mapping of a table with a column for everything, made of a `whole` sheet.

@@ -34,6 +34,24 @@ fn other_gears_and_conditions_are_refused() {
     let long = "Run: A\nDrehmoment;170 Nm\ncycles;radius [mm];depth [um]\n100000;26;3.1\n";
     let message = refused(&home, long, "--member pinion --sigma 0.1");
     assert!(message.contains("It is that of test B"), "{message}");
+    // above a table with a row for each value too, whose columns say of which test and member they are
+    for (title, says) in [
+        ("Modul: 2,75", "the study's, 2 mm"),
+        ("Modul [mm];2,75", "the study's, 2 mm"),
+        ("Z\u{e4}hnezahl Ritzel: 19", "27 and 53 teeth"),
+        ("Drehmoment [Nm];170", "It is that of test B"),
+        ("Run A, z = 27, 600 rpm", "`600 rpm` is another speed"),
+    ] {
+        let long = format!(
+            "{title}\nTest;member;cycles;radius [mm];depth [um]\nA;pinion;100000;26;3.1\nA;pinion;100000;27;1.2\n"
+        );
+        let message = refused(&home, &long, "--sigma 0.1");
+        assert!(message.contains(says), "{title}: {message}");
+    }
+    // of two tests it may be either one's torque
+    let both = "Drehmoment [Nm];170\nTest;member;cycles;radius [mm];depth [um]\nA;pinion;100000;26;3.1\nB;pinion;100000;27;1.2\n";
+    let (_, written) = rows(&home, both, "--sigma 0.1");
+    assert_eq!(written.lines().count(), 2);
 }
 
 #[test]

@@ -90,7 +90,7 @@ fn files_of_one_curve_each_are_read_together() {
         "layout   row 2, `Run`: test A\n",
         "layout   row 3, `Part`: member pinion\n",
         "layout   row 4, `Revolutions of pinion`: cycles 100000\n",
-        "title    row 5 passed over: Number of teeth: 27\n",
+        "layout   row 5, `Number of teeth: 27`: as in the study\n",
         "table    b.txt, read alike: 2 rows, wear_depth of pinion in test A after 250000\n",
         "wrote m.csv: 4 rows\n",
     ] {
