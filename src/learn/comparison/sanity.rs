@@ -27,12 +27,14 @@ mod gross_errors;
 mod increments;
 mod mass_balance;
 mod mass_over_depth;
+mod masses_of_one_tooth;
 mod masses_without_wear;
 mod materials;
 mod moved_places;
 mod moved_rotation;
 mod negated;
 mod no_wear;
+mod odd_curves;
 mod odd_weighings;
 mod one_series;
 mod other_units;
@@ -148,6 +150,9 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
             said.extend(since_the_last::since_the_last(study, &rows));
         }
         if said.is_empty() {
+            said.extend(odd_curves::odd_curve(study, &rows));
+        }
+        if said.is_empty() {
             let of_tests = single_tests::depths_and_masses_of_tests(study, &rows, k);
             let of_all = || {
                 let found = depths_and_masses::depths_and_masses(study, &rows, k);
@@ -159,6 +164,9 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         if said.is_empty() {
             said.extend(masses_without_wear::masses_without_wear(study, &rows));
             values_asked = !said.is_empty();
+        }
+        if said.is_empty() {
+            said.extend(masses_of_one_tooth::masses_of_one_tooth(study, &rows, k));
         }
         if said.is_empty() {
             said.extend(mass_over_depth::mass_over_depth(study, &rows));

@@ -157,6 +157,11 @@ pub(crate) fn scatter(c: &Comparison) -> String {
         0 | 1 if high > low => {
             "not known from one test; what stands for it is an assumption".to_owned()
         }
+        // the tests' own k and the parameters may then be on their way to each other
+        _ if !c.converged => format!(
+            "{} between tests where the fit stopped without converging: not to be relied on",
+            percent(c.coefficient_scatter, 2)
+        ),
         count => format!(
             "{} between tests (68 %: {} to {}){}",
             percent(c.coefficient_scatter, 2),

@@ -23,8 +23,8 @@ const APART: f64 = 8.0;
 const ALIKE: f64 = 4.5;
 const LEAST: f64 = 0.03;
 
-/// Masses by cycles.
-type Series = Vec<[f64; 2]>;
+/// Values by cycles, or functions of both.
+pub(super) type Series = Vec<[f64; 2]>;
 
 /// A question about the weighing that stands farthest apart.
 pub(super) fn odd_weighing(study: &Study, data: &Dataset) -> Option<String> {
@@ -36,7 +36,7 @@ pub(super) fn odd_weighing(study: &Study, data: &Dataset) -> Option<String> {
     }
     let series: Vec<((usize, Subject), Series)> = all.into_iter().collect();
     let masses: Vec<Series> = series.iter().map(|(_, own)| own.clone()).collect();
-    let odd = farthest(&masses)?;
+    let odd = farthest(&masses, &OF_MASSES)?;
     let ((test, member), own) = &series[odd.series];
     let [cycles, mass] = own[odd.at];
     Some(format!(
@@ -52,16 +52,35 @@ pub(super) fn odd_weighing(study: &Study, data: &Dataset) -> Option<String> {
 
 /// A weighing that stands apart.
 #[derive(Debug, PartialEq)]
-struct Odd {
-    series: usize,
-    at: usize,
-    expected: f64,
-    scatters: f64,
+pub(super) struct Odd {
+    /// Which series.
+    pub(super) series: usize,
+    /// Its place in it.
+    pub(super) at: usize,
+    /// What the others lead to.
+    pub(super) expected: f64,
+    /// By how many scatters it stands apart.
+    pub(super) scatters: f64,
 }
 
-fn farthest(all: &[Series]) -> Option<Odd> {
-    let standing: Vec<Option<Vec<f64>>> = all.iter().map(standing).collect();
-    let magnitudes: Vec<f64> = standing
+/// How series grow.
+pub(super) struct Law {
+    /// The two functions whose sum a series is.
+    pub(super) basis: fn(f64) -> [f64; 2],
+    /// Whether a value is off by enough to be asked about from what the others lead to.
+    pub(super) is_off: fn(f64, f64) -> bool,
+}
+
+const OF_MASSES: Law = Law {
+    basis: |cycles| [1e-6 * cycles, (1e-6 * cycles).powi(2)],
+    is_off: |mass, expected| (mass / expected - 1.0).abs() > LEAST,
+};
+
+/// The value that stands farthest apart from the growth of its series, if one does.
+pub(super) fn farthest(all: &[Series], law: &Law) -> Option<Odd> {
+    let long = |own: &Series| (own.len() >= FEWEST).then(|| standing(own, law))?;
+    let standing_of: Vec<Option<Vec<f64>>> = all.iter().map(long).collect();
+    let magnitudes: Vec<f64> = standing_of
         .iter()
         .flatten()
         .flatten()
@@ -71,18 +90,18 @@ fn farthest(all: &[Series]) -> Option<Odd> {
         return None;
     }
     let scatter = median(magnitudes)? / MEDIAN_OF_NORMAL;
-    let each = standing.iter().enumerate().flat_map(|(series, own)| {
+    let each = standing_of.iter().enumerate().flat_map(|(series, own)| {
         let own = own.iter().flatten().enumerate();
         own.map(move |(at, t)| (series, at, *t))
     });
     let (series, at, t) = each.max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()))?;
     let mut others = all[series].clone();
-    let [cycles, mass] = others.remove(at);
-    let expected = growth(&others)?.at(cycles);
-    let are_alike = standing_of_few(&others)?
+    let [cycles, value] = others.remove(at);
+    let expected = growth(&others, law)?.at(cycles);
+    let are_alike = standing(&others, law)?
         .iter()
         .all(|other| other.abs() < ALIKE * scatter);
-    let is_apart = t.abs() > APART * scatter && (mass - expected).abs() > LEAST * expected.abs();
+    let is_apart = t.abs() > APART * scatter && (law.is_off)(value, expected);
     (is_apart && are_alike).then(|| Odd {
         series,
         at,
@@ -91,26 +110,19 @@ fn farthest(all: &[Series]) -> Option<Odd> {
     })
 }
 
-/// t of each mass of a series that is long enough.
-fn standing(own: &Series) -> Option<Vec<f64>> {
-    if own.len() < FEWEST {
-        return None;
-    }
-    standing_of_few(own)
-}
-
-fn standing_of_few(own: &Series) -> Option<Vec<f64>> {
-    let growth = growth(own)?;
-    let of = |&[cycles, mass]: &[f64; 2]| {
+/// t of each value of a series.
+fn standing(own: &Series, law: &Law) -> Option<Vec<f64>> {
+    let growth = growth(own, law)?;
+    let of = |&[cycles, value]: &[f64; 2]| {
         let free = (1.0 - growth.leverage(cycles)).max(f64::EPSILON);
-        (mass - growth.at(cycles)) / free.sqrt()
+        (value - growth.at(cycles)) / free.sqrt()
     };
     Some(own.iter().map(of).collect())
 }
 
-/// a N + b N² by least squares, N in parts of the last.
+/// a u + b v of a law's two functions by least squares.
 struct Growth {
-    last: f64,
+    basis: fn(f64) -> [f64; 2],
     a: f64,
     b: f64,
     /// Inverse of the normal matrix: its diagonal, and what stands beside it.
@@ -119,31 +131,36 @@ struct Growth {
 
 impl Growth {
     fn at(&self, cycles: f64) -> f64 {
-        let n = cycles / self.last;
-        self.a * n + self.b * n * n
+        let [u, v] = (self.basis)(cycles);
+        self.a * u + self.b * v
     }
 
     fn leverage(&self, cycles: f64) -> f64 {
-        let n = cycles / self.last;
+        let [u, v] = (self.basis)(cycles);
         let [uu, vv, uv] = self.inverse;
-        n * n * (uu + 2.0 * uv * n + vv * n * n)
+        u * u * uu + 2.0 * uv * u * v + v * v * vv
     }
 }
 
 /// None of fewer than three different cycles.
-fn growth(own: &Series) -> Option<Growth> {
-    let last = own.iter().map(|[cycles, _]| *cycles).fold(0.0, f64::max);
-    let sum = |f: &dyn Fn(f64, f64) -> f64| -> f64 {
-        own.iter()
-            .map(|[cycles, mass]| f(cycles / last, *mass))
-            .sum()
+fn growth(own: &Series, law: &Law) -> Option<Growth> {
+    let sum = |f: &dyn Fn(f64, f64, f64) -> f64| -> f64 {
+        let values = own.iter().map(|&[cycles, value]| {
+            let [u, v] = (law.basis)(cycles);
+            f(u, v, value)
+        });
+        values.sum()
     };
-    let [uu, uv, vv] = [2, 3, 4].map(|power| sum(&|n, _| n.powi(power)));
-    let [uy, vy] = [1, 2].map(|power| sum(&|n, mass| n.powi(power) * mass));
+    let (uu, uv, vv) = (
+        sum(&|u, _, _| u * u),
+        sum(&|u, v, _| u * v),
+        sum(&|_, v, _| v * v),
+    );
+    let (uy, vy) = (sum(&|u, _, y| u * y), sum(&|_, v, y| v * y));
     let determinant = uu * vv - uv * uv;
     let is_known = own.len() >= 3 && determinant > 1e-9 * uu * vv;
     is_known.then(|| Growth {
-        last,
+        basis: law.basis,
         a: (uy * vv - vy * uv) / determinant,
         b: (vy * uu - uy * uv) / determinant,
         inverse: [vv / determinant, uu / determinant, -uv / determinant],
@@ -173,13 +190,13 @@ mod tests {
 
     #[test]
     fn a_weighing_that_is_45_mg_off_is_found_wherever_it_stands() {
-        assert_eq!(farthest(&series()), None);
+        assert_eq!(farthest(&series(), &OF_MASSES), None);
         for which in 0..4 {
             for at in 0..5 {
                 let mut wrong = series();
                 let right = wrong[which][at][1];
                 wrong[which][at][1] += 45.0;
-                let odd = farthest(&wrong).unwrap();
+                let odd = farthest(&wrong, &OF_MASSES).unwrap();
                 assert_eq!((odd.series, odd.at), (which, at));
                 assert!((odd.expected - right).abs() < 8.0, "{odd:?}, {right}");
             }
@@ -191,13 +208,13 @@ mod tests {
     #[test]
     fn leverages_are_those_of_least_squares() {
         for own in series() {
-            let all = growth(&own).unwrap();
+            let all = growth(&own, &OF_MASSES).unwrap();
             let sum: f64 = own.iter().map(|[cycles, _]| all.leverage(*cycles)).sum();
             assert!((sum - 2.0).abs() < 1e-9, "{sum}");
             for at in 0..own.len() {
                 let mut others = own.clone();
                 let [cycles, mass] = others.remove(at);
-                let left_out = mass - growth(&others).unwrap().at(cycles);
+                let left_out = mass - growth(&others, &OF_MASSES).unwrap().at(cycles);
                 let residual = mass - all.at(cycles);
                 let free = 1.0 - all.leverage(cycles);
                 assert!(
@@ -215,10 +232,10 @@ mod tests {
             own.iter().map(bent).collect()
         };
         let all: Vec<Series> = series().iter().map(run_in).collect();
-        assert_eq!(farthest(&all), None);
+        assert_eq!(farthest(&all, &OF_MASSES), None);
         // few weighings in all
         let mut few = series()[..2].to_vec();
         few[0][2][1] += 45.0;
-        assert_eq!(farthest(&few), None);
+        assert_eq!(farthest(&few, &OF_MASSES), None);
     }
 }
