@@ -50,8 +50,8 @@ pub struct AddArgs {
     #[arg(long, value_name = "NAME=VALUE", value_parser = setting)]
     set: Vec<(String, f64)>,
     /// Fit this form of the effect, `own` or one that `gearwear effects EFFECT` lists; of a learned law `wear_factor` or `profile`, or the plain formula that stands for its curve:
-    /// `step`, `band`, `hump`, `wave`, `decay`, `growth`, `power`, of times with `_in_approach` or `_in_recess` behind it,
-    /// of places with `_from_a_moment` [default: its own and the one that a
+    /// `step`, `until`, `band`, `hump`, `wave`, `decay`, `growth`, `power`, of times with `_in_approach` or `_in_recess` behind it,
+    /// of places with `_from_a_moment`, or with `_spreading` [default: its own and the one that a
     /// finished diagnosis names, and the others too if its own leaves more than noise; its own alone where a parameter of the effect is set]
     #[arg(long, value_name = "FORM")]
     form: Option<String>,

@@ -40,7 +40,7 @@ pub(super) fn section(learned: &LearnedAnswer) -> Section {
             let factors = plain.values.iter().map(|value| value.exp());
             let curve = learned.knots.iter().copied().zip(factors).collect();
             plot.curve(
-                &format!("as a {}", plain.form.replace('_', " ")),
+                &format!("as the formula {}", plain.form.replace('_', " ")),
                 Style::Kind(1),
                 curve,
             )
@@ -54,7 +54,10 @@ pub(super) fn section(learned: &LearnedAnswer) -> Section {
     ]);
     if let Some(plain) = &learned.plain {
         table = table.row([
-            Cell::text(format!("the same as a {}", plain.form.replace('_', " "))),
+            Cell::text(format!(
+                "the same as the formula {}",
+                plain.form.replace('_', " ")
+            )),
             Cell::number(written::fixed(plain.evidence_gain, 1)),
             Cell::text(learned.decided_by.name()),
         ]);

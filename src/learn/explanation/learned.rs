@@ -90,12 +90,26 @@ pub(crate) fn plain_in_words(plain: &PlainLaw, driver: &str) -> String {
     let (shape, part) = match plain.form.split_once('_') {
         Some((shape, "in_approach")) => (shape, ", before the pitch point alone".to_owned()),
         Some((shape, "in_recess")) => (shape, ", behind the pitch point alone".to_owned()),
-        Some((shape, _)) => (shape, format!(", from {} on", value("from"))),
-        None => (plain.form.as_str(), String::new()),
+        Some((shape, "from_a_moment")) => (shape, format!(", from {} on", value("from"))),
+        _ => (plain.form.as_str(), String::new()),
+    };
+    let side = match shape.starts_with("until") {
+        true => "up to",
+        false => "beyond",
     };
     let words = match shape {
-        "step" => format!(
-            "a step of {unit} at {}, k times {factor} beyond it",
+        "step_spreading" | "until_spreading" => format!(
+            "a step of {unit} that moves from {} at the start to {} at the end of the longest test, k times {factor} {side} it",
+            value("at"),
+            value("to")
+        ),
+        "band_spreading" => format!(
+            "a band of {unit} about {} that widens from nothing to {} at the end of the longest test, k times {factor} in it",
+            value("centre"),
+            value("width")
+        ),
+        "step" | "until" => format!(
+            "a step of {unit} at {}, k times {factor} {side} it",
             value("at")
         ),
         "band" => format!(
@@ -199,6 +213,43 @@ mod tests {
             document["converged"] = converged.into();
         }
         serde_json::from_value(document).unwrap()
+    }
+
+    /// A form whose edge moves is told with where it stands at either end of the longest test.
+    #[test]
+    fn a_formula_that_spreads_is_told_with_its_ends() {
+        let law = |form: &str, names: &[&str]| PlainLaw {
+            form: form.to_owned(),
+            parameters: (names.iter().enumerate())
+                .map(|(n, name)| PlainParameter {
+                    name: (*name).to_owned(),
+                    value: 1.5 + n as f64,
+                    interval_95: None,
+                    unit: "mm".to_owned(),
+                })
+                .collect(),
+            values: Vec::new(),
+            evidence_gain: 0.0,
+            fit_chi2_per_point: [2.0, 1.0],
+            holdout_chi2_per_point: None,
+            converged: true,
+            entry: Vec::new(),
+        };
+        let said = plain_in_words(&law("step_spreading", &["factor", "at", "to"]), "s");
+        assert!(
+            said.contains("from 2.50 mm at the start to 3.50 mm at the end"),
+            "{said}"
+        );
+        let said = plain_in_words(&law("until", &["factor", "at"]), "s");
+        assert!(
+            said.contains("at 2.50 mm, k times 1.50 mm up to it"),
+            "{said}"
+        );
+        let said = plain_in_words(&law("band_spreading", &["factor", "centre", "width"]), "s");
+        assert!(
+            said.contains("about 2.50 mm that widens from nothing to 3.50 mm"),
+            "{said}"
+        );
     }
 
     /// Documents that do not say whether it converged were written before that was stated.

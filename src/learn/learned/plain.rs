@@ -48,7 +48,8 @@ pub(in crate::learn) fn near(
     let parts = |(place, near): (usize, &NearShape)| -> Vec<(PlainForm, Vec<Vec<f64>>)> {
         let own = PlainForm::all().filter(|form| form.shape == near.shape && form.suits(law));
         let own = own.filter(|form| place < IN_PARTS || form.within == Within::Everywhere);
-        own.map(|form| (form, form.starts(near, longest))).collect()
+        own.map(|form| (form, form.starts(law, near, longest)))
+            .collect()
     };
     near.iter().enumerate().flat_map(parts).collect()
 }
@@ -64,7 +65,12 @@ pub(in crate::learn) fn nearest(
 ) -> Result<EffectSpec, String> {
     let formula = form.suits(law).then(|| {
         let near = form.shape.nearest(law, curve, sigma);
-        effect(law, form, longest, form.starts(&near, longest).first()?)
+        effect(
+            law,
+            form,
+            longest,
+            form.starts(law, &near, longest).first()?,
+        )
     });
     formula.flatten().ok_or_else(|| {
         let allowed = PlainForm::all().filter(|form| form.suits(law));

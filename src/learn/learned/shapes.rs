@@ -1,7 +1,7 @@
 //! Plain functions of one variable that a learned curve may stand for: a smooth process makes waves of a step, and is right only where nature is smooth.
 //!
 //! ```text
-//! factor on k = 1 + (factor − 1) g(x),  0 ≤ g ≤ 1      step, band, hump, wave, decay
+//! factor on k = 1 + (factor − 1) g(x),  0 ≤ g ≤ 1      step, until, band, hump, wave, decay
 //!             = factor^((x − x₀)/L)                    steady growth from one end of the range to the other
 //!             = (x / x_m)^exponent                     power law
 //! ```
@@ -34,6 +34,8 @@ const ACCURACY: f64 = 0.01;
 pub enum Shape {
     /// One value before a place, another one behind it.
     Step,
+    /// The same, of one member, with k itself behind it: the member's value before the place is the other one.
+    Until,
     /// Another value between two places.
     Band,
     /// The same with rounded flanks, a bell.
@@ -77,8 +79,9 @@ pub(in crate::learn) struct NearShape {
 
 impl Shape {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Step,
+        Self::Until,
         Self::Band,
         Self::Hump,
         Self::Wave,
@@ -91,6 +94,7 @@ impl Shape {
     pub fn name(self) -> &'static str {
         match self {
             Self::Step => "step",
+            Self::Until => "until",
             Self::Band => "band",
             Self::Hump => "hump",
             Self::Wave => "wave",
@@ -107,7 +111,10 @@ impl Shape {
 
     /// Whether no effect of the catalogue changes k so: decays, steady growth and powers are laws of effects.
     pub(in crate::learn) fn is_of_no_effect(self) -> bool {
-        matches!(self, Self::Step | Self::Band | Self::Hump | Self::Wave)
+        matches!(
+            self,
+            Self::Step | Self::Until | Self::Band | Self::Hump | Self::Wave
+        )
     }
 
     /// Whether the law's variable is a place on the flank.
@@ -123,6 +130,8 @@ impl Shape {
         let many = law.knots().len() > FEW;
         match self {
             Self::Step => many,
+            // of both members it is a step with another k
+            Self::Until => many && law.member().is_some(),
             Self::Band | Self::Hump | Self::Wave => many && (from_zero || is_place),
             Self::Decay => from_zero,
             Self::Growth => true,
@@ -149,7 +158,7 @@ impl Shape {
         };
         let factor = parameter("factor", FACTORS, false, 24, true);
         match self {
-            Self::Step => vec![factor, place("at", 25)],
+            Self::Step | Self::Until => vec![factor, place("at", 25)],
             Self::Band => vec![factor, place("centre", 17), length("width", [0.05, 0.9], 8)],
             Self::Hump => vec![factor, place("centre", 17), length("width", [0.03, 0.5], 8)],
             Self::Wave => vec![
@@ -169,6 +178,7 @@ impl Shape {
         let edge = EDGE * (last - first);
         let share = match (self, values) {
             (Self::Step, [_, at, ..]) => 0.5 * (1.0 + ((x - at) / edge).tanh()),
+            (Self::Until, [_, at, ..]) => 0.5 * (1.0 - ((x - at) / edge).tanh()),
             (Self::Band, [_, centre, width, ..]) => {
                 let side = |sign: f64| ((x - centre + sign * 0.5 * width) / edge).tanh();
                 0.5 * (side(1.0) - side(-1.0))
@@ -199,15 +209,22 @@ impl Shape {
         all
     }
 
-    /// g as a formula of the law's variable; None of shapes that are no part of a factor.
-    pub(super) fn share(self, law: &Learned) -> Option<String> {
+    /// g as a formula of the law's variable; None of shapes that are no part of a factor. `extent`: a formula in place of a step's place or a band's width.
+    pub(super) fn share(self, law: &Learned, extent: Option<&str>) -> Option<String> {
         let [first, last] = ends(law);
         let (x, edge) = (law.driver().name, rounded(EDGE * (last - first)));
         Some(match self {
-            Self::Step => format!("0.5*(1 + tanh(({x} - at)/{edge}))"),
-            Self::Band => format!(
-                "0.5*(tanh(({x} - centre + 0.5*width)/{edge}) - tanh(({x} - centre - 0.5*width)/{edge}))"
-            ),
+            Self::Step | Self::Until => {
+                let at = extent.unwrap_or("at");
+                let sign = if self == Self::Step { '+' } else { '-' };
+                format!("0.5*(1 {sign} tanh(({x} - {at})/{edge}))")
+            }
+            Self::Band => {
+                let width = extent.unwrap_or("width");
+                format!(
+                    "0.5*(tanh(({x} - centre + 0.5*{width})/{edge}) - tanh(({x} - centre - 0.5*{width})/{edge}))"
+                )
+            }
             Self::Hump => format!("exp(-0.5*(({x} - centre)/width)^2)"),
             Self::Wave => format!("0.5*(1 + cos(2*pi*({x} - crest)/period))"),
             Self::Decay => format!("exp(-{x}/scale)"),
@@ -215,12 +232,17 @@ impl Shape {
         })
     }
 
-    /// The factor as a formula of a study, in the law's variable and the names of the parameters; `part`: a formula that is 1 where it acts.
-    pub(in crate::learn) fn formula(self, law: &Learned, part: Option<&str>) -> String {
+    /// The factor as a formula of a study, in the law's variable and the names of the parameters; `part`: a formula that is 1 where it acts; `extent`: as in
+    /// [`Self::share`].
+    pub(in crate::learn) fn formula(
+        self,
+        law: &Learned,
+        [part, extent]: [Option<&str>; 2],
+    ) -> String {
         let [first, last] = ends(law);
         let [first, span] = [first, last - first].map(rounded);
         let (x, edge) = (law.driver().name, rounded(EDGE * (last - first)));
-        let factor = match (self.share(law), part) {
+        let factor = match (self.share(law, extent), part) {
             (Some(share), Some(part)) => format!("1 + (factor - 1)*{share}*{part}"),
             (Some(share), None) => format!("1 + (factor - 1)*{share}"),
             (None, _) if self == Self::Growth => format!("factor^(({x} - {first})/{span})"),
@@ -308,6 +330,21 @@ impl ShapeParameter {
         }
     }
 
+    /// The same with half of its range more at either end.
+    pub(super) fn beyond(self) -> Self {
+        let more = 0.5 * (self.upper - self.lower);
+        Self {
+            lower: rounded(self.lower - more),
+            upper: rounded(self.upper + more),
+            ..self
+        }
+    }
+
+    /// The same of another name.
+    pub(super) fn named(self, name: &'static str) -> Self {
+        Self { name, ..self }
+    }
+
     /// The scale on which values are tried.
     fn scaled(&self, value: f64) -> f64 {
         if self.logarithmic { value.ln() } else { value }
@@ -348,7 +385,7 @@ fn grid(parameters: &[ShapeParameter]) -> Vec<Vec<f64>> {
 }
 
 /// The outermost knots.
-fn ends(law: &Learned) -> [f64; 2] {
+pub(super) fn ends(law: &Learned) -> [f64; 2] {
     let knots = law.knots();
     [knots[0], knots[knots.len() - 1]]
 }
@@ -421,7 +458,7 @@ pub(super) mod tests {
                     .map(|p| p.value(0.3 * p.scaled(p.lower) + 0.7 * p.scaled(p.upper)))
                     .collect();
                 let formula =
-                    Formula::new(Hook::WearFactor, &shape.formula(law, None), &names).unwrap();
+                    Formula::new(Hook::WearFactor, &shape.formula(law, [None; 2]), &names).unwrap();
                 let effect = formula.build(&values);
                 for x in law.knots() {
                     let at = Local {
@@ -445,7 +482,7 @@ pub(super) mod tests {
                 }
             }
         }
-        assert_eq!(compared, 25 * (6 + 3 + 6 + 6));
+        assert_eq!(compared, 25 * (6 + 3 + 7 + 7));
     }
 
     /// Each shape's own curve, with a mean that nobody knows, is found again.

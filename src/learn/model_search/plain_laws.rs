@@ -97,7 +97,7 @@ pub(super) fn plain_law(
     Some(PlainLaw {
         form: found.form.name(),
         parameters: parameters(&found, law, measured.longest_test()),
-        values: found.form.shape.at_knots(law, &found.values),
+        values: found.form.at_knots(law, &found.values),
         evidence_gain: found.fit.log_evidence - without.log_evidence,
         fit_chi2_per_point: change(Role::Fit)?,
         holdout_chi2_per_point: change(Role::Holdout),
