@@ -200,7 +200,10 @@ fn search(context: &Context<'_>, base: &BaseFit, workshop: &Workshop) -> Diagnos
             effects: Vec::new(),
         }
     };
-    let laws = if smooth.is_real() && !context.approximate {
+    // a law that gains enough to be asked for may stand instead of a leader that does, though no smooth discrepancy is beyond doubt
+    let leads =
+        (fitted.first()).is_some_and(|first| learned_drivers::is_ahead_of(first, &base.fitted));
+    let laws = if (smooth.is_real() || leads) && !context.approximate {
         let beside = &discrepancy.effects;
         let of_time = time_laws::instead_of_slow_change(context, base, &fitted, beside);
         [

@@ -342,6 +342,33 @@ fn an_effect_beside_something_unknown_and_something_unknown_alone_can_be_undecid
     assert_eq!(decision.leading_effects(), Some(&own));
 }
 
+/// A discrepancy's form is mended by whatever has freedom: what gains little beside it, and next to nothing by itself, is not established. What brings a
+/// part of its own is, and so is what the discrepancy cannot follow at all.
+#[test]
+fn what_brings_next_to_nothing_by_itself_is_a_mend_of_the_discrepancy() {
+    let own = place("profile_slope");
+    let all = |drop: f64| -> Vec<CandidateEvidence> {
+        let of = |n: usize| candidate(&[n], 0.0, if n == own { drop } else { 0.0 });
+        (0..CATALOGUE.len()).map(of).collect()
+    };
+    let with = |gain_over_unknown: f64, drop: f64| {
+        decided(&Evidence {
+            beside_unknown: vec![beside(own, gain_over_unknown, drop, 1500.0 - drop)],
+            law_alone: Some(LawAloneEvidence {
+                law: "learned:s".to_owned(),
+                evidence_gain: 283.7,
+                beside_effects: None,
+            }),
+            ..evidence(all(drop), 1500.0, 500.0)
+        })
+    };
+    let mend = with(19.4, 15.9);
+    assert_eq!(mend.verdict, Verdict::Unknown);
+    assert!(mend.probability(&Hypothesis::Unknown) > 0.8, "{mend:?}");
+    assert_eq!(with(19.4, 400.0).verdict, Verdict::Partial);
+    assert_eq!(with(60.0, 15.9).verdict, Verdict::Partial);
+}
+
 /// Figures of measurements whose base model is another one, load shares that jump among it: any parameter gains beside a discrepancy that gains thousands.
 /// Beside a weaker one the same gain is evidence.
 #[test]
@@ -829,13 +856,13 @@ fn a_law_alone_is_held_against_effects_beside_something_unknown() {
     let debris = place("debris_abrasion");
     let with = |law: Option<(f64, Option<f64>)>| {
         decided(&Evidence {
-            beside_unknown: vec![beside(debris, 30.0, 70.0, 1070.0)],
+            beside_unknown: vec![beside(debris, 30.0, 140.0, 1000.0)],
             law_alone: law.map(|(evidence_gain, beside_effects)| LawAloneEvidence {
                 law: "learned:cycles as step_in_approach".to_owned(),
                 evidence_gain,
                 beside_effects,
             }),
-            ..evidence(vec![candidate(&[debris], 34.0, 70.0)], 1140.0, 410.0)
+            ..evidence(vec![candidate(&[debris], 64.0, 140.0)], 1140.0, 410.0)
         })
     };
     let named = EffectSet::new([CATALOGUE[debris]]);

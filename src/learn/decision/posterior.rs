@@ -32,6 +32,12 @@
 //! unknown: W/(1 + Σ v),  R and unknown: W w Σ v/(1 + Σ v)      of which o/(1 + o) is unknown's if R is not identified or a free shape
 //! R and unknown besides:  weight(R) S((r_min − r)/width),      taken from R
 //! ```
+//! As another form of an effect leaves a little of what it explains, so something unknown leaves a little of it to an effect that mends the form of the
+//! discrepancy. After all this the weight of R and unknown is multiplied, where a law alone was fitted and A is a fall of χ² (g: `remainder_mended`), by
+//!
+//! ```text
+//! S(min((r_min − Δχ²_R/A)/width, g − Δ ln Z_R))
+//! ```
 //! Where two effects were fitted beside a discrepancy, they have a v of their own, o_R/n their prior as pairs have it, which is lent to the single
 //! effects: one of the two is there, and the other may but follow the unknown. Each gets a part in proportion to the square of its own Δ ln Z_R alone (a half where
 //! both gain nothing); of a free shape's part, of which o/(1 + o) would be unknown's, that goes to the other one.
@@ -162,6 +168,7 @@ pub(super) fn log_probabilities(
     share_with_remainders(&mut logs, evidence, rule, [count, pairs]);
     share_by_laws(&mut logs, evidence, rule);
     share_with_law_alone(&mut logs, evidence, rule, count);
+    discount_mends(&mut logs, evidence, rule);
     let unknown = [logs[&Hypothesis::Unknown], log_sum_exp(&other_causes)];
     logs.insert(Hypothesis::Unknown, log_sum_exp(&unknown));
     for (hypothesis, log) in by_place {
@@ -225,8 +232,7 @@ fn share_with_remainders(
     rule: &DecisionRule,
     [singles, pairs]: [f64; 2],
 ) {
-    let mut remainders: Vec<&RemainderEvidence> = evidence.beside_unknown.iter().collect();
-    remainders.sort_by(|a, b| a.effects.cmp(&b.effects));
+    let remainders = by_effects(evidence);
     let log_prior = |r: &RemainderEvidence| match r.effects.single() {
         Some(_) => (rule.remainder_odds / singles).ln(),
         None => (rule.remainder_odds * rule.prior_pairs / rule.prior_singles / pairs).ln(),
@@ -304,8 +310,7 @@ fn share_with_law_alone(
     rule: &DecisionRule,
     singles: f64,
 ) {
-    let mut remainders: Vec<&RemainderEvidence> = evidence.beside_unknown.iter().collect();
-    remainders.sort_by(|a, b| a.effects.cmp(&b.effects));
+    let remainders = by_effects(evidence);
     let Some(ahead) = evidence.law_ahead() else {
         return;
     };
@@ -319,6 +324,31 @@ fn share_with_law_alone(
         }
     }
     logs.insert(Hypothesis::Unknown, log_sum_exp(&unknown));
+}
+
+/// Takes from effects beside something unknown what they have for mending the form of the discrepancy: they bring next to nothing by themselves. Only
+/// where a law alone was looked for: until then such an effect says that something beside another one is worth the look.
+fn discount_mends(logs: &mut BTreeMap<Hypothesis, f64>, evidence: &Evidence, rule: &DecisionRule) {
+    let counts = evidence.is_discrepant() && !evidence.attainable_by_evidence;
+    if !counts || evidence.law_alone.is_none() {
+        return;
+    }
+    for remainder in &evidence.beside_unknown {
+        let share = remainder.chi2_drop.max(0.0) / evidence.attainable_drop;
+        let odds = ((rule.remainder_share - share) / rule.remainder_share_width)
+            .min(rule.remainder_mended - remainder.gain_over_unknown);
+        let hypothesis = Hypothesis::EffectsAndUnknown(remainder.effects.clone());
+        if let Some(beside) = logs.get_mut(&hypothesis) {
+            *beside -= softplus(odds);
+        }
+    }
+}
+
+/// What was fitted beside something unknown, in an order that does not depend on theirs.
+fn by_effects(evidence: &Evidence) -> Vec<&RemainderEvidence> {
+    let mut all: Vec<&RemainderEvidence> = evidence.beside_unknown.iter().collect();
+    all.sort_by(|a, b| a.effects.cmp(&b.effects));
+    all
 }
 
 /// ln of what pairs beside something unknown lend to each single effect, as a share of what all beside something unknown have. A pair says that one of

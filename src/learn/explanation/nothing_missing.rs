@@ -25,10 +25,18 @@ pub(super) fn nothing_missing(
     let decision = &findings.posterior.decision;
     let chi2_before = before(findings);
     let nothing = decision.probability(&Hypothesis::NothingMissing);
-    let shown = if nothing < SURE {
-        "Undecided: most likely nothing is missing, but a weak effect may be"
-    } else {
-        "Nothing is missing that these data show"
+    // where they follow a condition it is hardly chance
+    let trend = trend_of_scatter(likelihood, &findings.base.fitted.found.state);
+    let followed = trend.is_some();
+    let shown = match (followed, nothing < SURE) {
+        (false, true) => "Undecided: most likely nothing is missing, but a weak effect may be",
+        (false, false) => "Nothing is missing that these data show",
+        (true, true) => {
+            "The tests' own k follow a condition; whether anything else is missing is undecided"
+        }
+        (true, false) => {
+            "The tests' own k follow a condition; nothing else is missing that these data show"
+        }
     };
     let too_few = too_few(likelihood, findings.base);
     let sentence = if too_few {
@@ -60,9 +68,6 @@ pub(super) fn nothing_missing(
         let other_question = next.is_some_and(|next| next.repeats.is_none());
         of_scatter(scatter, twice.as_ref(), other_question)
     });
-    // where they follow a condition it is hardly chance
-    let trend = trend_of_scatter(likelihood, &findings.base.fitted.found.state);
-    let followed = trend.is_some();
     let scatters = trend.or(scatters);
     let next_step = if followed {
         "look at what the tests' k follow before adding an effect: a law of it is an [[effect]] with kind = \"formula\" (guide/own-effect.md; of the temperature guide/plastics.md), fitted by \
@@ -78,7 +83,10 @@ pub(super) fn nothing_missing(
     };
     Explanation {
         sentence,
-        reasons: nearest.into_iter().chain(scatters).collect(),
+        reasons: match followed {
+            true => scatters.into_iter().chain(nearest).collect(),
+            false => nearest.into_iter().chain(scatters).collect(),
+        },
         next_step: next_step.to_owned(),
     }
 }

@@ -46,7 +46,8 @@ impl Explanation {
         all.reasons.extend(laws_instead::beside(findings));
         if let Some(driver) = driver {
             let is_explained = matches!(decision.verdict, Verdict::Effect | Verdict::Effects);
-            all.reasons.extend(depends_on(driver, is_explained));
+            let each = likelihood.tests.len() > 1;
+            all.reasons.extend(depends_on(driver, each, is_explained));
         }
         if matches!(decision.verdict, Verdict::Effect | Verdict::Effects) {
             all.reasons.extend(why_not_the_runner_up(findings));
@@ -80,10 +81,14 @@ impl Explanation {
     }
 }
 
-/// What the discrepancy depends on; `is_explained`: by effects that are named, which then are the cause and not the traces.
-fn depends_on(driver: &Driver, is_explained: bool) -> Vec<String> {
+/// What the discrepancy depends on; `each`: each of several tests has a k of its own, which takes up what differs between them alone; `is_explained`: by effects that are named, which then are the cause and not the traces.
+fn depends_on(driver: &Driver, each: bool, is_explained: bool) -> Vec<String> {
+    let discrepancy = match each {
+        true => "With a k of its own for each test the discrepancy",
+        false => "The discrepancy",
+    };
     let mut reasons = vec![format!(
-        "The discrepancy depends most on {}: {} of its variance.",
+        "{discrepancy} depends most on {}: {} of its variance.",
         driver.in_words(),
         percent(driver.variance_share)
     )];

@@ -206,6 +206,11 @@ fn brought_forward<T>(laws: &mut [T], is_meant: impl Fn(&T) -> bool) -> usize {
     }
 }
 
+/// Whether what is `fitted` gains as much over what is `known` as a law must to be told of.
+pub(in crate::learn) fn is_ahead_of(fitted: &FittedCandidate, known: &FittedCandidate) -> bool {
+    fitted.log_evidence - known.log_evidence >= LEAST_GAIN
+}
+
 /// The law of one of these `drivers` beside what is `known` that has the greatest evidence, and its gain over the same without it, as a curve or as a plain
 /// formula that no effect of the catalogue has; None where it is not worth its freedom.
 pub(in crate::learn) fn best_of(
