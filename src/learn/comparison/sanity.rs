@@ -44,6 +44,7 @@ mod sigmas;
 mod signs;
 mod since_the_last;
 mod single_tests;
+mod standing_apart;
 mod unworn_members;
 
 use std::collections::BTreeMap;

@@ -81,7 +81,8 @@ impl Explanation {
     }
 }
 
-/// What the discrepancy depends on; `each`: each of several tests has a k of its own, which takes up what differs between them alone; `is_explained`: by effects that are named, which then are the cause and not the traces.
+/// What the discrepancy depends on; `each`: each of several tests has a k of its own, which takes up what differs between them alone;
+/// `is_explained`: by effects that are named, which then are the cause and not the traces.
 fn depends_on(driver: &Driver, each: bool, is_explained: bool) -> Vec<String> {
     let discrepancy = match each {
         true => "With a k of its own for each test the discrepancy",

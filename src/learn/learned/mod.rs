@@ -2,6 +2,8 @@
 
 pub(super) mod knots;
 pub(super) mod law;
+mod nearest_shape;
 pub(super) mod plain;
 pub(super) mod plain_form;
+pub(super) mod shape_parameter;
 pub(super) mod shapes;

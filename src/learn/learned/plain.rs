@@ -3,8 +3,9 @@
 //! The shapes that come nearest to the curve start there; which of them is right is judged by the evidence of their own fits, against that of the curve.
 
 use super::law::starting_at;
+use super::nearest_shape::NearShape;
 use super::plain_form::{PlainForm, Within};
-use super::shapes::{NearShape, Shape};
+use super::shapes::Shape;
 use crate::effects::Learned;
 use crate::learn::fitting::fitted::Fit;
 use crate::learn::fitting::measured::Measured;

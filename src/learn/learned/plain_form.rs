@@ -8,7 +8,9 @@
 //! A cause that nobody knows often has a place and a beginning: oil fails on half a flank, a scuff starts, and grows. N: cycles of the longest test,
 //! W: a fiftieth of them.
 
-use super::shapes::{EDGE, NearShape, Shape, ShapeParameter, ends};
+use super::nearest_shape::NearShape;
+use super::shape_parameter::ShapeParameter;
+use super::shapes::{EDGE, Shape, ends};
 use crate::effects::{Hook, Learned};
 use crate::learn::learned::knots::FROM_ZERO;
 use crate::study::rounded;

@@ -9,10 +9,10 @@
 
 use std::f64::consts::TAU;
 
+use super::shape_parameter::ShapeParameter;
 use crate::effects::Learned;
 use crate::gear::Member;
 use crate::learn::learned::knots::FROM_ZERO;
-use crate::numeric::golden_section::place_of_largest;
 use crate::study::rounded;
 
 /// Width of edges as a share of the range.
@@ -23,18 +23,13 @@ const FACTORS: [f64; 2] = [0.01, 100.0];
 const EXPONENTS: [f64; 2] = [-6.0, 6.0];
 /// A curve with no more knots has too few values for an edge or a wave.
 const FEW: usize = 8;
-/// Least standard deviation of a value of the curve: a shape need not follow it more closely.
-const LEAST_SIGMA: f64 = 0.02;
-/// Rounds of the search along one parameter after the other, and its accuracy as a share of a step of the grid.
-const ROUNDS: usize = 10;
-const ACCURACY: f64 = 0.01;
 
 /// A plain function of one variable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
     /// One value before a place, another one behind it.
     Step,
-    /// The same, of one member, with k itself behind it: the member's value before the place is the other one.
+    /// Of one member: another value before a place, k itself behind it.
     Until,
     /// Another value between two places.
     Band,
@@ -48,33 +43,6 @@ pub enum Shape {
     Growth,
     /// A power of the variable.
     Power,
-}
-
-/// A parameter of a shape over a given range.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::learn) struct ShapeParameter {
-    /// Its name in formulas.
-    pub(in crate::learn) name: &'static str,
-    /// Least value.
-    pub(in crate::learn) lower: f64,
-    /// Largest value.
-    pub(in crate::learn) upper: f64,
-    /// Whether it is in the unit of the variable; a number else.
-    pub(in crate::learn) in_units: bool,
-    /// Values that are tried first, even or even in the logarithm.
-    tried: usize,
-    logarithmic: bool,
-}
-
-/// A shape fitted to a curve.
-#[derive(Debug, Clone, PartialEq)]
-pub(in crate::learn) struct NearShape {
-    /// Which.
-    pub(in crate::learn) shape: Shape,
-    /// Values of its parameters, in the order of [`Shape::parameters`].
-    pub(in crate::learn) values: Vec<f64>,
-    /// Share of the curve's weighted sum of squares that it leaves.
-    pub(in crate::learn) left: f64,
 }
 
 impl Shape {
@@ -173,7 +141,7 @@ impl Shape {
     }
 
     /// ln factor at a value of the variable; values behind those of the shape, such as when it begins, are passed over.
-    fn logarithm(self, law: &Learned, x: f64, values: &[f64]) -> f64 {
+    pub(super) fn logarithm(self, law: &Learned, x: f64, values: &[f64]) -> f64 {
         let [first, last] = ends(law);
         let edge = EDGE * (last - first);
         let share = match (self, values) {
@@ -254,134 +222,6 @@ impl Shape {
             Some(Member::Gear) => format!("1 + (1 - pinion)*({factor} - 1)"),
         }
     }
-
-    /// The shape's values nearest to a curve, weighted by its standard deviations: the best of a grid, then along one parameter after the other.
-    pub(in crate::learn) fn nearest(
-        self,
-        law: &Learned,
-        curve: &[f64],
-        sigma: &[f64],
-    ) -> NearShape {
-        let weights: Vec<f64> = (sigma.iter())
-            .map(|s| s.max(LEAST_SIGMA).powi(-2))
-            .collect();
-        let weighed = |values: &[f64]| -> f64 {
-            let weighted = values.iter().zip(&weights).map(|(v, w)| w * v);
-            weighted.sum::<f64>() / weights.iter().sum::<f64>()
-        };
-        let square = |values: &[f64]| -> f64 {
-            let middle = match law.member() {
-                None => weighed(values),
-                Some(_) => 0.0,
-            };
-            let squares = values.iter().zip(&weights);
-            squares.map(|(v, w)| w * (v - middle).powi(2)).sum()
-        };
-        let left = |values: &[f64]| -> f64 {
-            let own = law.knots().iter().zip(curve);
-            let rest: Vec<f64> = own
-                .map(|(&x, v)| v - self.logarithm(law, x, values))
-                .collect();
-            square(&rest)
-        };
-        let parameters = self.parameters(law);
-        let mut best = (f64::INFINITY, Vec::new());
-        for start in grid(&parameters) {
-            let left = left(&start);
-            if left < best.0 {
-                best = (left, start);
-            }
-        }
-        let (_, mut values) = best;
-        for _ in 0..ROUNDS {
-            for (n, parameter) in parameters.iter().enumerate() {
-                let at = parameter.scaled(values[n]);
-                let step = parameter.step();
-                let with = |y: f64| {
-                    let mut values = values.clone();
-                    values[n] = parameter.value(y);
-                    values
-                };
-                let ends = [at - step, at + step];
-                let found = with(place_of_largest(|y| -left(&with(y)), ends, ACCURACY * step));
-                if left(&found) < left(&values) {
-                    values = found;
-                }
-            }
-        }
-        NearShape {
-            shape: self,
-            left: left(&values) / square(curve).max(f64::MIN_POSITIVE),
-            values,
-        }
-    }
-}
-
-impl ShapeParameter {
-    /// When something begins, pinion cycles; `longest`: those of the longest test.
-    pub(super) fn moment(longest: f64) -> Self {
-        Self {
-            name: "from",
-            lower: 0.0,
-            upper: longest,
-            in_units: false,
-            tried: 0,
-            logarithmic: false,
-        }
-    }
-
-    /// The same with half of its range more at either end.
-    pub(super) fn beyond(self) -> Self {
-        let more = 0.5 * (self.upper - self.lower);
-        Self {
-            lower: rounded(self.lower - more),
-            upper: rounded(self.upper + more),
-            ..self
-        }
-    }
-
-    /// The same of another name.
-    pub(super) fn named(self, name: &'static str) -> Self {
-        Self { name, ..self }
-    }
-
-    /// The scale on which values are tried.
-    fn scaled(&self, value: f64) -> f64 {
-        if self.logarithmic { value.ln() } else { value }
-    }
-
-    /// The value at a place of that scale, within the bounds.
-    fn value(&self, scaled: f64) -> f64 {
-        let value = if self.logarithmic {
-            scaled.exp()
-        } else {
-            scaled
-        };
-        value.clamp(self.lower, self.upper)
-    }
-
-    /// Distance of values that are tried.
-    fn step(&self) -> f64 {
-        let intervals = self.tried.saturating_sub(1).max(1);
-        (self.scaled(self.upper) - self.scaled(self.lower)) / intervals as f64
-    }
-
-    fn tried(&self) -> impl Iterator<Item = f64> + '_ {
-        (0..self.tried).map(|n| self.value(self.scaled(self.lower) + n as f64 * self.step()))
-    }
-}
-
-/// All combinations of the values that are tried.
-fn grid(parameters: &[ShapeParameter]) -> Vec<Vec<f64>> {
-    let mut all = vec![Vec::new()];
-    for parameter in parameters {
-        let longer = |known: &Vec<f64>| -> Vec<Vec<f64>> {
-            let with = |value| [&known[..], &[value]].concat();
-            parameter.tried().map(with).collect()
-        };
-        all = all.iter().flat_map(longer).collect();
-    }
-    all
 }
 
 /// The outermost knots.
@@ -402,7 +242,12 @@ pub(super) mod tests {
     use crate::effects::formula::Formula;
     use crate::effects::{Hook, Local};
 
-    fn law(driver: &str, member: Option<Member>, from: f64, to: f64) -> Learned {
+    pub(in crate::learn::learned) fn law(
+        driver: &str,
+        member: Option<Member>,
+        from: f64,
+        to: f64,
+    ) -> Learned {
         let knots: Vec<f64> = (0..25)
             .map(|n| from + (to - from) * f64::from(n) / 24.0)
             .collect();
@@ -483,35 +328,5 @@ pub(super) mod tests {
             }
         }
         assert_eq!(compared, 25 * (6 + 3 + 7 + 7));
-    }
-
-    /// Each shape's own curve, with a mean that nobody knows, is found again.
-    #[test]
-    fn a_curve_of_a_shape_has_that_shape() {
-        let law = law("cycles", None, 0.0, 6e5);
-        let cases = [
-            (Shape::Step, vec![1.53, 316_000.0]),
-            (Shape::Band, vec![0.6, 250_000.0, 110_000.0]),
-            (Shape::Hump, vec![2.0, 400_000.0, 60_000.0]),
-            (Shape::Wave, vec![1.8, 100_000.0, 330_000.0]),
-            (Shape::Decay, vec![4.0, 80_000.0]),
-            (Shape::Growth, vec![2.5]),
-        ];
-        for (shape, values) in cases {
-            let curve = shape.at_knots(&law, &values);
-            let sigma = vec![0.05; curve.len()];
-            let own = shape.nearest(&law, &curve, &sigma);
-            assert!(own.left < 2e-3, "{own:?}");
-            for ((found, wanted), parameter) in
-                own.values.iter().zip(&values).zip(shape.parameters(&law))
-            {
-                let off = parameter.scaled(*found) - parameter.scaled(*wanted);
-                assert!(off.abs() < 0.2 * parameter.step(), "{own:?} {values:?}");
-            }
-            for other in Shape::ALL.into_iter().filter(|other| other.suits(&law)) {
-                let left = other.nearest(&law, &curve, &sigma).left;
-                assert!(other == shape || left > own.left, "{other:?} for {shape:?}");
-            }
-        }
     }
 }

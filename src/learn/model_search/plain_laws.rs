@@ -10,7 +10,8 @@ use crate::learn::candidates::fitted_candidate::FittedCandidate;
 use crate::learn::fitting::fitted::Fit;
 use crate::learn::learned::law::{LearnedFit, deviations};
 use crate::learn::learned::plain::{self, PlainFit};
-use crate::learn::learned::shapes::{Shape, ShapeParameter};
+use crate::learn::learned::shape_parameter::ShapeParameter;
+use crate::learn::learned::shapes::Shape;
 use crate::learn::prediction::bench::Bench;
 use crate::study::{Parameter, Role};
 

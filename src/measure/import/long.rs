@@ -130,10 +130,8 @@ fn agreeing(mut long: Long, (sheet, head): (&Sheet, usize), wanted: &Wanted<'_>)
     let test = the_one(long.entries.iter().map(|entry| entry.test.as_str()));
     let member = the_one(long.entries.iter().map(|entry| entry.member));
     let compared = conditions_above::agree(sheet, head, (test, member), wanted)?;
-    let passed_over = &mut long.titles.passed_over;
-    for (row, words) in passed_over.extract_if(.., |(row, _)| compared.contains(&(*row - 1))) {
-        (long.arranged).push(format!("row {row}, `{words}`: as in the study"));
-    }
+    let agreeing = long.titles.agreeing(&compared);
+    long.arranged.extend(agreeing);
     Ok(long)
 }
 

@@ -52,10 +52,7 @@ pub fn wide(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         Some((head, columns)) => of_several_tests(sheet, (head, &columns), wanted)?,
         None => of_one_test(sheet, wanted)?,
     };
-    let passed_over = &mut found.titles.passed_over;
-    for (row, words) in passed_over.extract_if(.., |(row, _)| compared.contains(&(*row - 1))) {
-        obeyed.push(format!("row {row}, `{words}`: as in the study"));
-    }
+    obeyed.extend(found.titles.agreeing(&compared));
     obeyed.append(&mut found.arranged);
     found.arranged = obeyed;
     Ok(found)

@@ -80,6 +80,15 @@ const NAME: usize = 3;
 const NOT: [&str; 6] = ["not", "no", "nicht", "kein", "non", "pas"];
 
 impl Titles {
+    /// What is said of the rows, counted from 0, that state what the study does; they are then not passed over.
+    pub(super) fn agreeing(&mut self, compared: &[usize]) -> Vec<String> {
+        let own = |(row, _): &mut (usize, String)| compared.contains(&(*row - 1));
+        let agreeing = self.passed_over.extract_if(.., own);
+        agreeing
+            .map(|(row, words)| format!("row {row}, `{words}`: as in the study"))
+            .collect()
+    }
+
     /// Of the rows above `head`.
     pub(super) fn of(
         sheet: &Sheet,

@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use super::super::residual_statistics::FittedRow;
-use super::odd_weighings::{Law, Series, farthest};
+use super::standing_apart::{Law, Series, farthest};
 use super::{EXPLAINS, Scale, scale};
 use crate::measure::{Quantity, Subject};
 use crate::numeric::written;
@@ -17,6 +17,7 @@ use crate::study::Study;
 /// Least part of its size that a curve is off: what the model lacks may be less.
 const LEAST: f64 = 0.15;
 
+/// How the sizes of curves grow, in logarithms.
 const OF_SIZES: Law = Law {
     basis: |log_cycles| [1.0, log_cycles],
     is_off: |size, expected| (size - expected).abs() > LEAST,
