@@ -53,7 +53,8 @@ use crate::learn::model_search::context::Context;
 use crate::learn::model_search::high_fidelity::decide_leaders;
 use crate::learn::model_search::stages::Stages;
 use crate::learn::model_search::{
-    laws_beside, learned_drivers, matching_pursuit, nested_forms, pairs, place_laws, time_laws,
+    laws_beside, learned_drivers, matching_pursuit, nested_forms, pair_laws, pairs, place_laws,
+    time_laws,
 };
 use crate::learn::noise::{ModelError, NoiseModel};
 use crate::learn::prediction::bench::Workshop;
@@ -206,21 +207,25 @@ fn search(context: &Context<'_>, base: &BaseFit, workshop: &Workshop) -> Diagnos
     let laws = if (smooth.is_real() || leads) && !context.approximate {
         let beside = &discrepancy.effects;
         let of_time = time_laws::instead_of_slow_change(context, base, &fitted, beside);
-        [
-            place_laws::instead_of_leader(context, base, &fitted),
-            of_time.into_iter().collect(),
-        ]
+        let [mut of_places, mut of_times] = pair_laws::instead_of_one(context, &fitted);
+        of_places.extend(place_laws::instead_of_leader(context, base, &fitted));
+        of_times.extend(of_time);
+        [of_places, of_times]
     } else {
         Default::default()
     };
     let posterior =
         JudgedCandidates::new(likelihood, base, fitted, discrepancy, laws, &smooth, rule);
     let mut laws = laws_beside::of(context, &posterior.undecided_beside_unknown());
-    let alone = (posterior.is_beside_unknown()).then(|| laws_beside::alone(context, base));
-    let alone = alone.flatten();
+    let hidden = posterior.hidden_by_unknown();
+    let asked = posterior.is_beside_unknown() || !hidden.is_empty();
+    let alone = asked.then(|| laws_beside::alone(context, base)).flatten();
     // what is ahead of an effect and a discrepancy may be behind the effect and a law
     if let Some(rival) = alone.as_ref().filter(|_| laws.is_empty()) {
         laws = laws_beside::of(context, &posterior.behind(rival));
+    }
+    if laws.is_empty() && alone.is_some() {
+        laws = laws_beside::of(context, &hidden);
     }
     let posterior = posterior.with_laws_beside(laws, alone);
     let doing = "held-out tests and the next experiment".to_owned();

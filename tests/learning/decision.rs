@@ -95,6 +95,7 @@ fn law_beside((place, (evidence_gain, law_gain)): (usize, (f64, f64))) -> LawBes
         law: "learned:cycles".to_owned(),
         evidence_gain,
         law_gain,
+        gain_over_base: None,
     }
 }
 
@@ -803,6 +804,44 @@ fn what_acts_by_its_place_is_no_pair_where_a_factor_on_k_is_more_probable() {
     assert_eq!(with(Some(63.0)).verdict, Verdict::Unknown);
 }
 
+/// A starved band beside a soft bearing: of all effects micropitting comes nearest to it, and a factor on k by the place comes nearer. Another form of an
+/// effect that is there would bring a hundredth of what it explains, and is no other cause.
+#[test]
+fn one_effect_of_a_pair_gives_way_to_a_factor_on_k_that_is_more_probable() {
+    let [bearing, nearest] = ["bearing_compliance", "micropitting"].map(place);
+    let set = |places: &[usize]| EffectSet::new(places.iter().map(|&p| CATALOGUE[p]));
+    let with = |ahead: f64, gain: f64| {
+        let law = LawInsteadEvidence {
+            beside: set(&[bearing]),
+            instead_of: set(&[nearest]),
+            law: "learned:s".to_owned(),
+            evidence_gain: gain + ahead,
+        };
+        decided(&Evidence {
+            beside_unknown: vec![beside(bearing, 20.0, gain, gain)],
+            place_laws: vec![law],
+            ..evidence(
+                vec![
+                    candidate(&[bearing, nearest], gain, 2.2 * gain),
+                    candidate(&[bearing], 0.5 * gain, gain),
+                    candidate(&[nearest], 0.7 * gain, 1.4 * gain),
+                ],
+                2.2 * gain,
+                0.6 * gain,
+            )
+        })
+    };
+    let given_way = with(8.1, 135.6);
+    assert_eq!(given_way.verdict, Verdict::Partial, "{given_way:?}");
+    let group = [Hypothesis::EffectsAndUnknown(set(&[bearing]))];
+    assert_eq!(given_way.group, group);
+    for (ahead, gain) in [(-8.0, 135.6), (1.0, 716.0)] {
+        let named = with(ahead, gain);
+        assert_eq!(named.verdict, Verdict::Effects, "{named:?}");
+        assert_eq!(named.leader(), Some(&set(&[bearing, nearest])));
+    }
+}
+
 /// A humidity that comes and goes beside a factor on the approach: a discrepancy takes most of both, and is as good beside running-in, which is not there. A
 /// factor on k by the cycles comes near the noise beside the one, not beside the other.
 #[test]
@@ -847,6 +886,40 @@ fn laws_beside_effects_tell_which_is_there() {
     }
     // a law that does little of what a discrepancy does stands for nothing
     assert_eq!(with(laws((400.0, 100.0), (0.0, 20.0))).group, open.group);
+}
+
+/// A gear harder than its pinion beside a groove: a discrepancy takes most of both, a factor on k by the place comes near the noise only beside the right effect.
+/// So the effect is there, though it gains nothing beside the discrepancy; not where a law alone, or a discrepancy, does as well.
+#[test]
+fn an_effect_that_a_discrepancy_hides_is_found_by_a_law_beside_it() {
+    let hardness = place("member_hardness");
+    let with = |with_law: Option<f64>, alone: f64| {
+        let law = with_law.map(|gain_over_base| LawBesideEvidence {
+            gain_over_base: Some(gain_over_base),
+            ..law_beside((hardness, (0.0, 82.0)))
+        });
+        decided(&Evidence {
+            beside_unknown: vec![beside(hardness, 0.5, 230.0, 150.0)],
+            laws_beside: law.into_iter().collect(),
+            law_alone: Some(LawAloneEvidence {
+                law: "learned:radius:gear as step_spreading".to_owned(),
+                evidence_gain: alone,
+                beside_effects: with_law,
+            }),
+            ..evidence(vec![candidate(&[hardness], 112.0, 230.0)], 380.0, 165.5)
+        })
+    };
+    assert_eq!(with(None, 110.0).verdict, Verdict::Unknown);
+    let found = with(Some(191.6), 110.0);
+    assert_eq!(found.verdict, Verdict::Partial, "{found:?}");
+    let group = [Hypothesis::EffectsAndUnknown(EffectSet::new([
+        CATALOGUE[hardness]
+    ]))];
+    assert_eq!(found.group, group);
+    for (with_law, alone) in [(170.0, 110.0), (191.6, 194.0)] {
+        let open = with(Some(with_law), alone);
+        assert_eq!(open.verdict, Verdict::Unknown, "{open:?}");
+    }
 }
 
 /// Half a flank that loses its oil at some moment, d 34: debris grows as it does on the whole, and a discrepancy beside it takes up the rest, 170 of ln evidence

@@ -33,10 +33,10 @@ pub(super) const CARD: Card = Card {
             "mm",
             "distance from the pitch point over which the step is smoothed",
             0.09,
-            (1e-3, 2.0),
+            (1e-3, 20.0),
             Prior::LogNormal {
-                median: 0.09,
-                spread: 1.5,
+                median: 0.8,
+                spread: 3.0,
             },
         )
         .fixed(),
@@ -45,11 +45,19 @@ pub(super) const CARD: Card = Card {
             "1: the excess grows with the distance from the pitch point, and is reached a base pitch away; 0: a step",
         ),
     ],
-    forms: &[Form {
-        name: "growing",
-        settings: &[("growing", 1.0)],
-        ..Form::PLAIN
-    }],
+    forms: &[
+        Form {
+            name: "growing",
+            settings: &[("growing", 1.0)],
+            ..Form::PLAIN
+        },
+        Form {
+            name: "gradual",
+            settings: &[("width", 0.8)],
+            frees: &["width"],
+            ..Form::PLAIN
+        },
+    ],
     build: |p| {
         Box::new(ApproachRecess {
             asymmetry: p[0],

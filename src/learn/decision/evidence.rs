@@ -59,6 +59,9 @@ pub struct LawBesideEvidence {
     pub evidence_gain: f64,
     /// ln Z(effect and law) − ln Z(effect) by the same.
     pub law_gain: f64,
+    /// ln Z(effect and law) over the base model's by the same; None where no law alone was fitted, which that is known by.
+    #[serde(default)]
+    pub gain_over_base: Option<f64>,
 }
 
 /// A factor on k as a free smooth function of one variable, fitted instead of an effect.
@@ -147,6 +150,14 @@ impl Evidence {
             .into_iter()
             .chain(self.beside_discrepancy());
         Some(law.evidence_gain - best.reduce(f64::max)?)
+    }
+
+    /// ln evidence over the base model's of something unknown alone, a discrepancy or a law of those that were tried: what an effect and a law beside it must
+    /// gain more than. `tolerance`: of a discrepancy's gain, the share that one of another kind gains as well; `tried`: ln of how many laws were tried.
+    pub fn unknown_alone(&self, tolerance: f64, tried: f64) -> f64 {
+        let discrepancy = self.unknown_evidence_gain * (1.0 + tolerance) + tried;
+        let law = self.law_alone.as_ref().map(|law| law.evidence_gain);
+        law.map_or(discrepancy, |law| law.max(discrepancy))
     }
 
     /// The most of ln Z(effect and discrepancy) over the base model's; None where none was fitted.

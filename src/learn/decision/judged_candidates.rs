@@ -5,7 +5,7 @@ use super::evidence::{
     RemainderEvidence,
 };
 use super::rule::DecisionRule;
-use super::verdict::{Decision, decide};
+use super::verdict::{Decision, Verdict, decide};
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::checks::identifiability::unidentified;
@@ -101,6 +101,22 @@ impl JudgedCandidates {
         alike.map(|(_, beside)| beside).collect()
     }
 
+    /// The single effects that bring most by themselves, where something unknown alone is what is most probable: a discrepancy of the results follows them
+    /// too, and may hide them.
+    pub(in crate::learn) fn hidden_by_unknown(&self) -> Vec<&BesideUnknown> {
+        if self.decision.verdict != Verdict::Unknown || !self.evidence.is_discrepant() {
+            return Vec::new();
+        }
+        let least = self.rule.remainder_share * self.evidence.attainable_drop;
+        let mut all: Vec<&BesideUnknown> = (self.beside_unknown.iter())
+            .filter(|beside| beside.fitted.candidate.effects.single().is_some())
+            .filter(|beside| beside.chi2_drop > least)
+            .collect();
+        all.sort_by(|a, b| b.chi2_drop.total_cmp(&a.chi2_drop));
+        all.truncate(LAWS_BESIDE);
+        all
+    }
+
     /// Whether effects beside something unknown are so probable together that something unknown alone is to be held against them.
     pub(in crate::learn) fn is_beside_unknown(&self) -> bool {
         let all = self.beside_unknown.iter().map(|beside| {
@@ -134,8 +150,9 @@ impl JudgedCandidates {
         alone: Option<LawBeside>,
     ) -> Self {
         let most = laws.iter().map(|law| law.log_evidence).reduce(f64::max);
+        let base = (alone.as_ref()).map(|alone| alone.log_evidence - alone.gain);
         self.evidence.law_alone = alone.map(|alone| LawAloneEvidence {
-            beside_effects: most.map(|most| most - (alone.log_evidence - alone.gain)),
+            beside_effects: most.zip(base).map(|(most, base)| most - base),
             law: alone.name,
             evidence_gain: alone.gain,
         });
@@ -146,6 +163,7 @@ impl JudgedCandidates {
             law: law.name,
             evidence_gain: law.log_evidence - least,
             law_gain: law.gain,
+            gain_over_base: base.map(|base| law.log_evidence - base),
         };
         self.evidence.laws_beside = laws.into_iter().map(figures).collect();
         self.decision = decide(&self.evidence, &self.rule);

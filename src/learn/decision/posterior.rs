@@ -50,6 +50,12 @@
 //! ```text
 //! from c to R and unknown, to unknown:   ln odds = (Δ ln Z_law − Δ ln Z_c)/T + (effects of R + 1 − effects of c) ln(o_R/n)
 //! ```
+//! A law instead of one effect of a pair, which is no sum of waves, is held to be another form of that effect if it brings no more than a share ε of what the pair
+//! does (L: ln of how many laws were tried, π_u the prior of the unknown):
+//!
+//! ```text
+//! from c to R and unknown:   ln odds = (Δ ln Z_law − (1 + ε) Δ ln Z_c)/T + ln(π_u o_R/n) − ln π_c − L
+//! ```
 //! An effect that changes k over time alone follows any slow change of k in part. Where it leads and leaves something, a law of the time fitted instead
 //! of it takes its part likewise, ε Δ ln Z_c less for another form of the effect.
 //!
@@ -64,6 +70,12 @@
 //!
 //! ```text
 //! from R and unknown to unknown:   ln odds = (ln Z_law − max_R(ln Z(R and discrepancy), ln Z(R and law)))/T + ln(n/o_R) − L
+//! ```
+//! Where an effect and a law do more than anything unknown alone, weight goes the opposite way (o_other: of another cause of the same pattern, where R is a free
+//! shape or is not identified)
+//!
+//! ```text
+//! from unknown to R and unknown:   ln odds = (ln Z(R and law) − max((1 + ε) Δ ln Z_GP + L T, ln Z_law))/T + ln(o_R/n) − Σ ln(1 + o_other)
 //! ```
 //! Δ ln Z_R is the smaller of two figures: with the discrepancy that is most probable without the effect, and with every kind and size of it. By the
 //! first the discrepancy has taken what it can of the effect already, by the second anything that mends the discrepancy is an effect. The share w of
@@ -98,13 +110,12 @@ pub(super) fn log_probabilities(
         .collect();
     let count = singles.len().max(1) as f64;
     let pairs = (0.5 * count * (count - 1.0)).max(1.0);
-    let log_posterior = |c: &CandidateEvidence| {
-        let prior = match c.effects.single() {
-            Some(_) => rule.prior_singles / count,
-            None => rule.prior_pairs / pairs,
-        };
-        c.evidence_gain + (prior / c.accepted_forms as f64).ln()
+    let log_prior = |c: &CandidateEvidence| match c.effects.single() {
+        Some(_) => (rule.prior_singles / count).ln(),
+        None => (rule.prior_pairs / pairs).ln(),
     };
+    let log_posterior =
+        |c: &CandidateEvidence| c.evidence_gain + log_prior(c) - (c.accepted_forms as f64).ln();
     let most = (candidates.iter().map(|c| log_posterior(c))).fold(f64::NEG_INFINITY, f64::max);
     let doubt = evidence.attainable_spread / evidence.attainable_drop.max(1.0);
     let unknown = evidence.unknown_evidence_gain;
@@ -132,7 +143,7 @@ pub(super) fn log_probabilities(
                 (rule.pair_share - share - rule.pair_share_spreads * doubt) / rule.pair_share_width
             }
         };
-        let instead = laws_instead_of(c, evidence, rule, count);
+        let instead = laws_instead_of(c, evidence, rule, (count, &log_prior));
         let taken = softplus(log_sum_exp(
             &instead.iter().map(|law| law.1).collect::<Vec<_>>(),
         ));
@@ -168,6 +179,7 @@ pub(super) fn log_probabilities(
     share_with_remainders(&mut logs, evidence, rule, [count, pairs]);
     share_by_laws(&mut logs, evidence, rule);
     share_with_law_alone(&mut logs, evidence, rule, count);
+    share_unknown_by_laws(&mut logs, evidence, rule, count);
     discount_mends(&mut logs, evidence, rule);
     let unknown = [logs[&Hypothesis::Unknown], log_sum_exp(&other_causes)];
     logs.insert(Hypothesis::Unknown, log_sum_exp(&unknown));
@@ -193,28 +205,35 @@ fn laws_instead_of(
     c: &CandidateEvidence,
     evidence: &Evidence,
     rule: &DecisionRule,
-    singles: f64,
+    (singles, log_prior): (f64, &dyn Fn(&CandidateEvidence) -> f64),
 ) -> Vec<(Hypothesis, f64)> {
     let replaces = |law: &&LawInsteadEvidence| c.effects.contains(&law.instead_of);
-    let odds = |(law, tolerated): (&LawInsteadEvidence, f64)| {
+    // a slightly other form of an effect is still the effect; waves follow anything in their own
+    let replaces_effect = |law: &LawInsteadEvidence| {
+        let card = law.instead_of.single();
+        card.is_some_and(|card| !card.is_wave_along_flank())
+    };
+    let odds = |law: &LawInsteadEvidence| {
+        let tolerated = match replaces_effect(law) {
+            true => rule.discrepancy_tolerance * c.evidence_gain.max(0.0),
+            false => 0.0,
+        };
         let gain = (law.evidence_gain - c.evidence_gain - tolerated) / rule.temper;
         let [own, beside] = [&c.effects, &law.beside].map(|set| set.len() as f64);
-        let fewer = (beside + 1.0 - own) * (rule.remainder_odds / singles).ln();
+        let prior = if replaces_effect(law) && beside > 0.0 {
+            (rule.prior_unknown * rule.remainder_odds / singles).ln() - log_prior(c) - LAWS_TRIED
+        } else {
+            (beside + 1.0 - own) * (rule.remainder_odds / singles).ln()
+        };
         let hypothesis = if law.beside.is_empty() {
             Hypothesis::Unknown
         } else {
             Hypothesis::EffectsAndUnknown(law.beside.clone())
         };
-        (hypothesis, gain + fewer)
+        (hypothesis, gain + prior)
     };
-    let of_places = evidence.place_laws.iter().filter(replaces);
-    let of_times = evidence.time_laws.iter().filter(replaces);
-    // a slightly other form of an effect is still the effect; waves have none
-    let tolerated = rule.discrepancy_tolerance * c.evidence_gain.max(0.0);
-    (of_places.map(|law| (law, 0.0)))
-        .chain(of_times.map(|law| (law, tolerated)))
-        .map(odds)
-        .collect()
+    let laws = evidence.place_laws.iter().chain(&evidence.time_laws);
+    laws.filter(replaces).map(odds).collect()
 }
 
 /// ln evidence for a remainder beside a form of a single effect, where one that leaves as much or more was fitted beside a discrepancy.
@@ -324,6 +343,43 @@ fn share_with_law_alone(
         }
     }
     logs.insert(Hypothesis::Unknown, log_sum_exp(&unknown));
+}
+
+/// Gives effects beside something unknown their part of what is unknown alone, where an effect and a law do more than a discrepancy and than a law alone.
+fn share_unknown_by_laws(
+    logs: &mut BTreeMap<Hypothesis, f64>,
+    evidence: &Evidence,
+    rule: &DecisionRule,
+    singles: f64,
+) {
+    let alone = evidence.unknown_alone(rule.discrepancy_tolerance, rule.temper * LAWS_TRIED);
+    let mut odds: Vec<(Hypothesis, f64)> = Vec::new();
+    for remainder in by_effects(evidence) {
+        let mut laws = evidence.laws_beside.iter();
+        let law = laws.find(|law| law.effects == remainder.effects);
+        let hypothesis = Hypothesis::EffectsAndUnknown(remainder.effects.clone());
+        let gain = law.and_then(|law| law.gain_over_base);
+        if let Some(gain) = gain.filter(|_| logs.contains_key(&hypothesis)) {
+            // another cause of the same pattern is as good, and unknown
+            let other = [
+                (remainder.free_shape, rule.free_shape_odds),
+                (!remainder.identified, rule.unidentified_odds),
+            ];
+            let other = other.iter().filter(|(is_open, _)| *is_open);
+            let kept: f64 = other.map(|(_, odds)| -odds.ln_1p()).sum();
+            let prior = (rule.remainder_odds / singles).ln();
+            odds.push((hypothesis, (gain - alone) / rule.temper + prior + kept));
+        }
+    }
+    let unknown = logs[&Hypothesis::Unknown];
+    let total = softplus(log_sum_exp(
+        &odds.iter().map(|(_, odds)| *odds).collect::<Vec<_>>(),
+    ));
+    logs.insert(Hypothesis::Unknown, unknown - total);
+    for (hypothesis, odds) in odds {
+        let both = log_sum_exp(&[logs[&hypothesis], unknown + odds - total]);
+        logs.insert(hypothesis, both);
+    }
 }
 
 /// Takes from effects beside something unknown what they have for mending the form of the discrepancy: they bring next to nothing by themselves. Only

@@ -208,7 +208,7 @@ fn more(first: &NextTest, further: &[NextTest], plain: &Operation, together: f64
         })
         .collect();
     format!(
-        " Together with {}: χ² {together:.0}, {}.",
+        " Together with {}: χ² {together:.1}, {}.",
         each.join(" and "),
         strength(together)
     )
@@ -420,7 +420,7 @@ mod tests {
         let same = [first.clone(), first.clone(), first.clone()];
         assert_eq!(
             more(&first, &same, &plain(), 3.2),
-            " Together with three repeats of it: χ² 3, still little: other measurements are needed."
+            " Together with three repeats of it: χ² 3.2, still little: other measurements are needed."
         );
         let others = [first.clone(), test(200.0)];
         let said = more(&first, &others, &plain(), 30.0);

@@ -19,6 +19,8 @@ const BOTH: &str = "one cause that stays at its place does what the two do toget
 const LOAD: &str = "a load in waves changes with the speed, what acts there does not";
 /// Why waves are not named, whose deviation of the profile would wear away.
 const WAVES: &str = "a deviation of the profile wears away, what acts there does not";
+/// Why an effect is not that comes nearest beside another one.
+const PLACE: &str = "k differs along the flank, but in another way";
 /// Why an effect that changes k over time alone is not.
 const SLOW_CHANGE: &str = "k changes over time, but in another way";
 
@@ -32,20 +34,23 @@ pub(super) fn instead(findings: &Findings<'_>) -> Vec<String> {
         return Vec::new();
     }
     let evidence = &findings.posterior.evidence;
-    let of = |laws: &[LawInsteadEvidence], why| instead_of_effect(laws, why, &evidence.candidates);
-    let replaced = evidence
-        .place_laws
-        .first()
-        .map(|law| law.instead_of.single());
-    let of_places = match replaced {
-        Some(Some(card)) if card.hook == Hook::LoadFactor => LOAD,
-        Some(None) => BOTH,
-        _ => WAVES,
+    let of = |laws: &[LawInsteadEvidence], why: fn(&LawInsteadEvidence) -> &'static str| {
+        instead_of_effect(laws, why, &evidence.candidates)
     };
-    (of(&evidence.place_laws, of_places).into_iter())
-        .chain(of(&evidence.time_laws, SLOW_CHANGE))
+    (of(&evidence.place_laws, why_of_place).into_iter())
+        .chain(of(&evidence.time_laws, |_| SLOW_CHANGE))
         .chain(alone(evidence, verdict))
         .collect()
+}
+
+/// Why a law of the place stands instead of the effects that it replaces.
+fn why_of_place(law: &LawInsteadEvidence) -> &'static str {
+    match law.instead_of.single() {
+        None => BOTH,
+        Some(card) if !card.is_wave_along_flank() => PLACE,
+        Some(card) if card.hook == Hook::LoadFactor => LOAD,
+        Some(_) => WAVES,
+    }
 }
 
 /// What speaks for a law alone instead of the best of effects beside something unknown; nothing where that is named.
@@ -73,7 +78,7 @@ fn alone(evidence: &Evidence, verdict: Verdict) -> Option<String> {
 /// The same of laws of one kind, and why.
 fn instead_of_effect(
     laws: &[LawInsteadEvidence],
-    why: &str,
+    why: fn(&LawInsteadEvidence) -> &'static str,
     candidates: &[CandidateEvidence],
 ) -> Option<String> {
     let law = laws
@@ -85,7 +90,7 @@ fn instead_of_effect(
     with_effect.sort_by(|a, b| b.evidence_gain.total_cmp(&a.evidence_gain));
     let best = with_effect.first()?;
     let ahead = law.evidence_gain - best.evidence_gain;
-    (ahead > AHEAD).then(|| sentence(law, best, (ahead, why)))
+    (ahead > AHEAD).then(|| sentence(law, best, (ahead, why(law))))
 }
 
 fn sentence(
@@ -128,8 +133,13 @@ pub(super) fn short(meaning: &str) -> &str {
     meaning[..end].trim_end()
 }
 
-/// Why one effect rather than others stands beside something unknown, where laws beside each told that; none where they did not.
+/// Why an effect stands beside something unknown, where laws beside effects told that; none where they did not.
 pub(super) fn beside(findings: &Findings<'_>) -> Option<String> {
+    rather_than_unknown(findings).or_else(|| rather_than_others(findings))
+}
+
+/// Why one effect rather than others.
+fn rather_than_others(findings: &Findings<'_>) -> Option<String> {
     let posterior = findings.posterior;
     let first = posterior.decision.group.first()?;
     let best = posterior.evidence.telling_law()?;
@@ -142,6 +152,28 @@ pub(super) fn beside(findings: &Findings<'_>) -> Option<String> {
     let ahead = best.evidence_gain - next;
     (ahead > AHEAD && *first == Hypothesis::EffectsAndUnknown(best.effects.clone()))
         .then(|| sentence_beside(best, &others, ahead))
+}
+
+/// What establishes an effect that a discrepancy of the results hides: a law beside it; none where the discrepancy alone does not hide it.
+fn rather_than_unknown(findings: &Findings<'_>) -> Option<String> {
+    let posterior = findings.posterior;
+    let (evidence, rule) = (&posterior.evidence, &posterior.rule);
+    let Some(Hypothesis::EffectsAndUnknown(effects)) = posterior.decision.group.first() else {
+        return None;
+    };
+    let law = (evidence.laws_beside.iter()).find(|law| law.effects == *effects)?;
+    let alone = evidence.unknown_alone(rule.discrepancy_tolerance, 0.0);
+    let ahead = law.gain_over_base? - alone;
+    let own = (evidence.beside_unknown.iter()).find(|r| r.effects == *effects)?;
+    (own.gain_over_unknown < ahead && ahead > AHEAD).then(|| {
+        format!(
+            "{0} and a free factor on k by the {1} ({2}) have {ahead:.0} more of ln evidence, by coarse elements, than anything unknown alone: so {0} is there, \
+             though a smooth discrepancy of the results would take most of what it does.",
+            effects.in_words(),
+            meaning(&law.law),
+            law.law.replace('_', " "),
+        )
+    })
 }
 
 fn sentence_beside(best: &LawBesideEvidence, others: &[&LawBesideEvidence], ahead: f64) -> String {

@@ -151,7 +151,8 @@ pub(in crate::learn) fn ranked(
                 holdout_chi2_per_point: (wanted.then(|| held_out(context, &held, fitted)))
                     .flatten(),
                 angle_to_leader: if is_base { None } else { angle(fitted) },
-                decided_by: fitted.fidelity,
+                // a study of the analytic model has no finer one of its own
+                decided_by: fitted.fidelity.min(context.fidelity),
                 converged: fitted.converged,
             }
         };

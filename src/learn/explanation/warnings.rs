@@ -1,6 +1,7 @@
 //! What keeps an answer from being trusted.
 
 use super::ranked::{form, parameters};
+use super::wording::values;
 use crate::effects::Card;
 use crate::learn::candidates::fitted_candidate::{AS_WELL, BaseFit, FittedCandidate};
 use crate::learn::candidates::likelihood::Likelihood;
@@ -252,6 +253,16 @@ fn unsettled_form(posterior: &JudgedCandidates, leader: &FittedCandidate) -> Opt
         return None;
     }
     let effects = &leader.candidate.effects;
+    if let Some(beside) = beside_in_other_form(posterior, leader) {
+        let all: Vec<(usize, &'static Card)> =
+            effects.cards().iter().copied().enumerate().collect();
+        let [beside, alone] = [beside, leader].map(|fitted| form_in_words(fitted, &all));
+        return Some(of_other_form(
+            &effects.in_words(),
+            [&beside, &alone],
+            &values(leader),
+        ));
+    }
     let (others, as_good) = other_forms(posterior, leader);
     // an effect that all of them have in one form has that for sure
     let cards = effects.cards().iter().copied();
@@ -276,6 +287,27 @@ fn unsettled_form(posterior: &JudgedCandidates, leader: &FittedCandidate) -> Opt
         &form_in_words(leader, &open),
         &as_good,
         one_alone,
+    )
+}
+
+/// The leading effects' fit beside something unknown, where that is in another form than what leads by itself.
+fn beside_in_other_form<'p>(
+    posterior: &'p JudgedCandidates,
+    leader: &FittedCandidate,
+) -> Option<&'p FittedCandidate> {
+    let Some(Hypothesis::EffectsAndUnknown(effects)) = posterior.decision.group.first() else {
+        return None;
+    };
+    let mut all = posterior.beside_unknown.iter().map(|beside| &beside.fitted);
+    let own = all.find(|fitted| fitted.candidate.effects == *effects)?;
+    (*effects == leader.candidate.effects && form(own) != form(leader)).then_some(own)
+}
+
+/// `forms`: beside something unknown, and alone with these `values`.
+fn of_other_form(effects: &str, [beside, alone]: [&str; 2], values: &str) -> String {
+    format!(
+        "the parameters of {effects} beside what is left are those of its form {beside}; by itself its form {alone} explains most ({values}). With what is left in the model too they may \
+         change: gearwear add takes either form, with --form"
     )
 }
 
@@ -380,7 +412,7 @@ fn unheard_of(fitted: &FittedCandidate, whose: &str) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{form_warning, leads_alone, not_converged};
+    use super::{form_warning, leads_alone, not_converged, of_other_form};
     use crate::effects::find;
     use crate::learn::decision::{Decision, Verdict};
     use crate::learn::hypothesis::{EffectSet, Hypothesis};
@@ -403,6 +435,16 @@ mod tests {
         );
         assert_eq!(told(Verdict::Unknown), None);
         assert_eq!(told(Verdict::NothingMissing), None);
+    }
+
+    #[test]
+    fn a_form_beside_what_is_left_that_is_not_the_one_alone_is_told() {
+        let forms = ["\"hyperbolic\"", "\"own\""];
+        let said = of_other_form("running_in", forms, "amplitude 2.50 ± 0.09");
+        assert!(
+            said.contains("its form \"own\" explains most (amplitude 2.50 ± 0.09)"),
+            "{said}"
+        );
     }
 
     #[test]

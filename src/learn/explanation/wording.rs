@@ -85,6 +85,14 @@ pub(super) fn add_each(findings: &Findings<'_>) -> &'static str {
 /// correlated errors and falls by another one.
 pub(super) fn of_attainable([fall, attainable]: [f64; 2]) -> String {
     let [fall, attainable] = [fall.max(0.0), attainable];
+    if fall > attainable {
+        return format!(
+            "all of the attainable reduction of χ² (χ² of all rows together, with their covariance, falls by {}, where a smooth discrepancy could have brought \
+             about {}; χ² per point, in each row's own sigma, falls by another share)",
+            fixed(fall, 0),
+            fixed(attainable, 0)
+        );
+    }
     format!(
         "{} of the attainable reduction of χ² ({} of about {} by which χ² of all rows together, with their covariance, could fall; χ² per point, in each \
          row's own sigma, falls by another share)",
@@ -159,6 +167,11 @@ mod tests {
             "{said}"
         );
         assert!(said.contains("falls by another share"), "{said}");
+        let more = of_attainable([351.0, 319.0]);
+        assert!(
+            more.starts_with("all of the attainable reduction of χ² (χ² of all rows"),
+            "{more}"
+        );
         let none = of_attainable([-3.0, 50.0]);
         assert!(none.starts_with("0.0 % of the attainable"), "{none}");
     }

@@ -2,6 +2,10 @@
 
 use crate::learn::hypothesis::EffectSet;
 
+/// ln evidence by which the first law may be behind for a second to be fitted beside other effects, and a law behind a pair by the analytic model for finite
+/// elements to be asked.
+pub(super) const FAR_BEHIND: f64 = 30.0;
+
 /// A factor on k by the place on the flank or by the time, fitted instead of an effect.
 pub(in crate::learn) struct LawInstead {
     /// The effects beside it; empty: none.

@@ -228,6 +228,31 @@ pub(in crate::learn) fn best_of_worth(
     drivers: &[&str],
     least: f64,
 ) -> Option<(String, f64)> {
+    best_with_evidence(context, known, drivers, least).map(|(name, gain, _)| (name, gain))
+}
+
+/// The same law by its ln evidence over a `rival` that has other effects, both fitted by the same means: what a candidate's own evidence excuses of an effect's
+/// form, no law is excused.
+pub(in crate::learn) fn best_over(
+    context: &Context<'_>,
+    known: &FittedCandidate,
+    drivers: &[&str],
+    (rival, least): (&FittedCandidate, f64),
+) -> Option<(String, f64)> {
+    let (name, gain, without_law) = best_with_evidence(context, known, drivers, least)?;
+    let own = context.fidelity == Fidelity::Screening;
+    let bench = if own { context.middle } else { context.exact };
+    let rival = without(context, rival, bench, context.likelihood.noise)?;
+    Some((name, without_law + gain - rival.log_evidence))
+}
+
+/// The law's name, its gain over the same without it, and ln evidence of that.
+fn best_with_evidence(
+    context: &Context<'_>,
+    known: &FittedCandidate,
+    drivers: &[&str],
+    least: f64,
+) -> Option<(String, f64, f64)> {
     let screened = screened(context, known, drivers, OF_ONE_KIND_CLOSELY)?;
     let (_, first) = screened.laws.first()?;
     if screened.gain(first) < least {
@@ -252,7 +277,7 @@ pub(in crate::learn) fn best_of_worth(
     let gain = plain.map_or(answer.evidence_gain, |plain| {
         plain.evidence_gain.max(answer.evidence_gain)
     });
-    Some((answer.name, gain))
+    Some((answer.name, gain, ranked.without.log_evidence))
 }
 
 /// Of the best law of the place and the best of the time by the analytic model the one that has the greater evidence beside what is `known` by coarse

@@ -21,6 +21,7 @@ pub(in crate::learn) mod nested_forms;
 mod other_valleys;
 mod pair_exchange;
 pub(in crate::learn) mod pair_fit;
+pub(in crate::learn) mod pair_laws;
 pub(in crate::learn) mod pairs;
 pub(in crate::learn) mod place_laws;
 pub(in crate::learn) mod plain_laws;

@@ -23,6 +23,8 @@ use crate::learn::prediction::fidelity::Fidelity;
 const PROMISE_SHARE: f64 = 0.06;
 /// Pairs fitted by the middle fidelity, and by finite elements.
 const FITTED: [usize; 2] = [5, 2];
+/// Pairs that overtake those when these are fitted by finite elements, and are fitted so too.
+const OVERTAKING: usize = 2;
 /// Other forms of each effect of the leading pair that are fitted too, and the share of what the form in it gains alone from which one is.
 const FORMS: usize = 2;
 const NEARLY: f64 = 0.8;
@@ -108,21 +110,35 @@ pub(in crate::learn) fn pairs(
         forms.find(|(_, pair)| pair.candidate.is_own_form() && pair.does_as_well_as(best))
     });
     let own = own.map(|(place, _)| place);
-    let mut decided = Vec::with_capacity(fitted.len());
-    for (i, pair) in fitted.into_iter().enumerate() {
-        let better = pair.log_evidence > best.log_evidence;
-        if (i < FITTED[1] || own == Some(i)) && better && context.fidelity != Fidelity::Middle {
-            let start = pair.found.state.clone();
-            decided.push(
-                context
-                    .decide(&pair.candidate, start, Some(base), best.found.objective)
-                    .unwrap_or(pair),
-            );
-        } else {
-            decided.push(pair);
+    if context.fidelity == Fidelity::Middle {
+        return fitted;
+    }
+    let by_elements = |pair: &FittedCandidate| {
+        let start = pair.found.state.clone();
+        let found = context.decide(&pair.candidate, start, Some(base), best.found.objective);
+        found.ok()
+    };
+    for (i, pair) in fitted.iter_mut().enumerate() {
+        if (i < FITTED[1] || own == Some(i))
+            && pair.log_evidence > best.log_evidence
+            && let Some(found) = by_elements(pair)
+        {
+            *pair = found;
         }
     }
-    decided
+    // what comes first now may be a pair that these have not judged
+    for _ in 0..OVERTAKING {
+        let first = (fitted.iter_mut()).max_by(|a, b| a.log_evidence.total_cmp(&b.log_evidence));
+        let first = first.filter(|first| first.log_evidence > best.log_evidence);
+        let Some(first) = first.filter(|first| first.fidelity < context.fidelity) else {
+            break;
+        };
+        let Some(found) = by_elements(first) else {
+            break;
+        };
+        *first = found;
+    }
+    fitted
 }
 
 /// Starts of a pair with either effect in the other forms that do nearly as well alone: which one is right may show beside the other effect only.

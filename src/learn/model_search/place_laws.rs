@@ -9,15 +9,11 @@
 //! without waves leads, such a factor is fitted instead of both.
 
 use super::context::Context;
-use super::law_instead::LawInstead;
+use super::law_instead::{FAR_BEHIND, LawInstead};
 use super::learned_drivers::{self, PLACES};
 use crate::effects::Hook;
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::EffectSet;
-
-/// ln evidence by which the first law may be behind for a second to be fitted beside other effects, and a law behind a pair by the analytic model for finite
-/// elements to be asked.
-const FAR_BEHIND: f64 = 30.0;
 
 /// The laws instead of the sum of waves in what leads, or of a pair that leads without one; none where there is neither. `fitted`: by falling evidence.
 pub(in crate::learn) fn instead_of_leader(
