@@ -362,6 +362,19 @@ mod tests {
         );
     }
 
+    /// A table that has 0 in place of every negative reading says nothing about a small one.
+    #[test]
+    fn zeros_in_other_profiles_make_no_slip_of_a_small_value() {
+        let shape = [3.0, 6.2, 5.9, 4.0, 1.5, 0.4, 1.6, 3.9, 5.0, 4.8];
+        let mut rows = coarse(&HEIGHTS, shape, 0, 1.0);
+        for (i, row) in rows.iter_mut().enumerate() {
+            if i % 10 == 5 && i != 25 {
+                row.value = 0.0;
+            }
+        }
+        assert_eq!(outliers(&rows), []);
+    }
+
     #[test]
     fn what_all_profiles_of_a_member_do_is_no_outlier() {
         let steep = [9.0, 1.2, 1.1, 1.0, 0.9, 0.8, 0.9, 1.0, 1.1, 1.2];

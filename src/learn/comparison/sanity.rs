@@ -11,6 +11,7 @@ mod common_tilt;
 mod constants;
 mod copied_curves;
 mod copied_rows;
+mod cut_at_zero;
 mod cycle_units;
 mod decimal_slips;
 mod depths_and_masses;
@@ -90,6 +91,9 @@ pub(super) fn sanity_of_data(study: &Study, data: &Dataset) -> Vec<String> {
     }
     if let Some(own) = gear_revolutions::gear_revolutions(study, data) {
         return vec![own];
+    }
+    if let Some(cut) = cut_at_zero::cut_at_zero(data) {
+        return vec![cut];
     }
     let slips = decimal_slips::decimal_slips(study, data);
     if !slips.is_empty() {

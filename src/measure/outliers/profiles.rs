@@ -133,11 +133,14 @@ fn laid_on(
     let at_same_place = |row: usize| {
         let away = |other: &usize| (place(*other) - place(row)).abs();
         let nearest = (other.iter().copied()).min_by(|a, b| away(a).total_cmp(&away(b)))?;
-        (away(&nearest) < LEAST * length).then(|| rows[nearest].value)
+        // a table that has 0 for every negative reading has no height there
+        let is_read = away(&nearest) < LEAST * length && rows[nearest].value != 0.0;
+        is_read.then(|| rows[nearest].value)
     };
     let theirs: Vec<Option<f64>> = curve.iter().map(|&row| at_same_place(row)).collect();
     let both: Vec<[f64; 2]> = (curve.iter().zip(&theirs))
         .filter_map(|(&row, theirs)| Some([(*theirs)?, rows[row].value]))
+        .filter(|[_, own]| *own != 0.0)
         .collect();
     if both.len() < *POINTS.start() {
         return None;

@@ -78,8 +78,8 @@ fn same_rows<'d>(one: &[&'d Observation], other: &[&'d Observation]) -> Option<B
     (values.len() >= FEWEST).then_some(longest)
 }
 
-/// Whether a curve's values are written so finely that equal ones are rare.
-fn is_fine(curve: &[&Observation]) -> bool {
+/// Whether values, of a curve or several, are written so finely that equal ones are rare.
+pub(super) fn is_fine(curve: &[&Observation]) -> bool {
     let mut values: Vec<f64> = curve.iter().map(|o| o.value).collect();
     values.sort_by(f64::total_cmp);
     let steps = values.windows(2).map(|pair| pair[1] - pair[0]);

@@ -3,7 +3,7 @@
 //! ```text
 //! depth ∝ k T at the same cycles:    the rows of test i under the name of test j call for k_i T_i/T_j
 //! R = range of ln k of all tests as they stand, R' once i and j are exchanged
-//! R > ln 1.5 and R' < 0.35 R, and R' < ln 1.15 or R > ln 3, for one pair only: asked
+//! R > ln 1.5 and R' < 0.35 R, and R' < ln 1.15 or R > ln 3 or R > ln 2 and R' < 0.2 R, for one pair only: asked
 //! ```
 //! Tests of one torque show nothing. A law of the load, k ∝ T^p, does the same for p about −2 (−3.1 to −1.5 where the middle of three torques is the
 //! geometric mean): no known one falls so steeply. Where a power of the speed brings all together as well nothing is asked.
@@ -21,6 +21,9 @@ const LEFT: f64 = 0.35;
 /// The factor that may be left, unless the tests' k were farther apart than any that scatter: by 20 or 30 % they come together by chance.
 const AGREE: f64 = 1.15;
 const NO_SCATTER: f64 = 3.0;
+/// Where they are this far apart, the part of their range that may be left whatever it is.
+const SELDOM_SCATTER: f64 = 2.0;
+const LITTLE_LEFT: f64 = 0.2;
 /// The same that a power of the speed may leave for it to be the likelier reason.
 const LEFT_BY_SPEED: f64 = 0.5;
 /// Fewest tests: of two nobody knows which k is right.
@@ -65,7 +68,9 @@ fn exchanged(tests: &[(f64, f64)]) -> Option<(usize, usize, f64, f64)> {
             _ => k,
         };
         let after = range(tests.iter().enumerate().map(of));
-        let agree = after < AGREE.ln() || before > NO_SCATTER.ln();
+        let agree = after < AGREE.ln()
+            || before > NO_SCATTER.ln()
+            || before > SELDOM_SCATTER.ln() && after < LITTLE_LEFT * before;
         (after < LEFT * before && agree).then_some((i, j, before, after))
     });
     let found = fits.next()?;

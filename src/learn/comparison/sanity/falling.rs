@@ -29,6 +29,8 @@ const VANISHES_TO: f64 = 0.1;
 /// Fewest points of a curve, and the share of its squares that `s f` must explain.
 const FEWEST: usize = 4;
 const OF_ITS_SHAPE: f64 = 0.8;
+/// Series that fall which are asked about one by one.
+const SAID_EACH: usize = 3;
 /// Ratio of the largest values of two checkpoints, each over its cycles, that a unit a thousand times larger in one of them makes: wear is not even over life.
 const A_THOUSAND: [f64; 2] = [400.0, 2500.0];
 
@@ -84,6 +86,18 @@ pub(super) fn falling(study: &Study, data: &Dataset, rows: &[FittedRow<'_>]) -> 
                 member.name()
             );
             said.push(fall.in_words(&of, quantity));
+        }
+    }
+    shortened(said)
+}
+
+/// The same where many series fall: the first of them, and how many more there are.
+pub(super) fn shortened(mut said: Vec<String>) -> Vec<String> {
+    let more = said.len().saturating_sub(SAID_EACH);
+    if more > 1 {
+        said.truncate(SAID_EACH);
+        if let Some(last) = said.last_mut() {
+            *last += &format!(" So it is in {more} more series.");
         }
     }
     said
@@ -274,6 +288,14 @@ mod tests {
         assert_eq!(falls([before, [46.26, 1.49], after]), Some([4.5e5, 6.75e5]));
         assert_eq!(falls([before, [50.0, 1.49], after]), None);
         assert_eq!(falls([before, [54.0, 0.01], after]), None);
+    }
+
+    #[test]
+    fn many_series_that_fall_are_counted() {
+        let said = |n: usize| shortened((0..n).map(|i| format!("{i}?")).collect());
+        assert_eq!(said(4), ["0?", "1?", "2?", "3?"]);
+        assert_eq!(said(9), ["0?", "1?", "2? So it is in 6 more series."]);
+        assert_eq!(said(0), [""; 0]);
     }
 
     #[test]

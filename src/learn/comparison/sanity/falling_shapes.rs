@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use super::falling::{Fall, Worn, fall};
+use super::falling::{Fall, Worn, fall, shortened};
 use super::flank_curves::{Curve, flank_curves};
 use crate::measure::{Dataset, Quantity, Subject};
 use crate::study::Study;
@@ -34,7 +34,7 @@ pub(super) fn falling_shapes(study: &Study, data: &Dataset) -> Vec<String> {
                 .or_insert_with(|| fall.in_words(&of, Quantity::WearDepth));
         }
     }
-    said.into_values().collect()
+    shortened(said.into_values().collect())
 }
 
 /// The first two checkpoints between which the common shape shrinks.

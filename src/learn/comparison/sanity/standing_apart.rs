@@ -12,8 +12,8 @@ use crate::numeric::{MEDIAN_OF_NORMAL, median};
 const FEWEST: usize = 4;
 const SEVERAL: usize = 12;
 /// Scatters from which a value stands apart, and up to which the others do not without it.
-const APART: f64 = 8.0;
-const ALIKE: f64 = 4.5;
+pub(super) const APART: f64 = 8.0;
+pub(super) const ALIKE: f64 = 4.5;
 
 /// Values by cycles, or functions of both.
 pub(super) type Series = Vec<[f64; 2]>;
