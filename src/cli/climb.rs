@@ -26,7 +26,7 @@ use serde_json::json;
 /// Arguments of `climb`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Diagnoses, adds the effect that the diagnosis names (of several that it cannot tell apart, the one that does best by evidence and on tests that it was not fitted to), fits everything again, takes out what is no longer needed, and diagnoses again. A step is kept if it pays by evidence and on tests that it was not fitted to: the held-out ones or, where none is held out, each fit test left out in turn. The first step goes by the diagnosis in STUDYSTEM.out/diagnose if that is of the same study and measurements.\n\nExamples:\n  gearwear climb study.toml\n  gearwear climb study.toml --most 2 -o results/climb\n  gearwear climb study.toml --resume\n  gearwear climb study.toml --json --quiet | jq '.effects'"
+    after_help = "Diagnoses, adds the effect that the diagnosis names (of several that it cannot tell apart, the one that does best by evidence and the error on tests that it was not fitted to combined), fits everything again, takes out what is no longer needed, and diagnoses again. A step is kept if it pays by evidence and on tests that it was not fitted to: the held-out ones or, where none is held out, each fit test left out in turn. The first step goes by the diagnosis in STUDYSTEM.out/diagnose if that is of the same study and measurements.\n\nExamples:\n  gearwear climb study.toml\n  gearwear climb study.toml --most 2 -o results/climb\n  gearwear climb study.toml --resume\n  gearwear climb study.toml --json --quiet | jq '.effects'"
 )]
 pub struct ClimbArgs {
     #[command(flatten)]

@@ -3,8 +3,8 @@
 //! ```text
 //! diagnosis -> proposals -> fit -> pays?  -> still needed, each of those before? -> diagnosis …
 //! ```
-//! Of effects that the diagnosis cannot tell apart all are fitted, and of those that pay the one with the least error on tests that it was not
-//! fitted to is kept.
+//! Of effects that the diagnosis cannot tell apart all are fitted, and of those that pay the one is kept that makes all measurements the most
+//! likely, those of the fit by evidence and the others by their error.
 //!
 //! An effect pays if the evidence outweighs the prior odds of nothing more against one effect of the catalogue, and the error on tests that
 //! it was not fitted to does not rise beyond its own standard error, or their whole χ² by no more than one value may:

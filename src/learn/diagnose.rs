@@ -205,8 +205,7 @@ fn search(context: &Context<'_>, base: &BaseFit, workshop: &Workshop) -> Diagnos
     let leads =
         (fitted.first()).is_some_and(|first| learned_drivers::is_ahead_of(first, &base.fitted));
     let laws = if (smooth.is_real() || leads) && !context.approximate {
-        let beside = &discrepancy.effects;
-        let of_time = time_laws::instead_of_slow_change(context, base, &fitted, beside);
+        let of_time = time_laws::instead_of_slow_change(context, base, &fitted, &discrepancy);
         let [mut of_places, mut of_times] = pair_laws::instead_of_one(context, &fitted);
         of_places.extend(place_laws::instead_of_leader(context, base, &fitted));
         of_times.extend(of_time);

@@ -210,7 +210,8 @@ fn conclusion(result: &Result<'_>) -> String {
     // what chose is no longer independent
     let chose = result.steps.iter().any(|step| {
         let choice = step.choice.as_deref().unwrap_or_default();
-        step.holdout_chi2_per_point.is_some() && choice.contains(" does best by evidence and on ")
+        step.holdout_chi2_per_point.is_some()
+            && choice.contains(" does best by evidence and held-out error ")
     });
     if chose {
         found

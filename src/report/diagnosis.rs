@@ -108,7 +108,8 @@ fn ranking(diagnosis: &Diagnosis) -> String {
     text
 }
 
-/// The first entries; the first rival without anything unknown beside it among them, for it is the one that the reasons speak of.
+/// The first entries; the first rival without anything unknown beside it among them, for it is the one that the reasons speak of, and the base
+/// model, which the others are to improve on.
 fn shown(ranking: &[Ranked]) -> Vec<&Ranked> {
     let mut shown: Vec<&Ranked> = ranking.iter().take(SHOWN).collect();
     let is_rival = |entry: &&Ranked| matches!(entry.effect, Hypothesis::Effects(_));
@@ -116,6 +117,10 @@ fn shown(ranking: &[Ranked]) -> Vec<&Ranked> {
     let later = ranking.iter().skip(SHOWN).find(is_rival);
     if let (false, Some(rival), Some(last)) = (has_rival, later, shown.last_mut()) {
         *last = rival;
+    }
+    let is_base = |entry: &&Ranked| entry.effect == Hypothesis::NothingMissing;
+    if !shown.iter().any(is_base) {
+        shown.extend(ranking.iter().find(is_base));
     }
     shown
 }
@@ -182,10 +187,10 @@ fn unknown_name(diagnosis: &Diagnosis) -> &'static str {
 }
 
 fn name(entry: &Ranked) -> String {
-    if entry.form.is_empty() {
-        entry.effect.to_string()
-    } else {
-        format!("{} ({})", entry.effect, entry.form)
+    match (&entry.effect, &entry.form[..]) {
+        (Hypothesis::NothingMissing, _) => "nothing missing: the base model".to_owned(),
+        (effect, "") => effect.to_string(),
+        (effect, form) => format!("{effect} ({form})"),
     }
 }
 
@@ -202,6 +207,12 @@ fn parameters(entry: &Ranked) -> String {
                         with_unit(significant(p.value, 3), &p.unit)
                     )
                 }
+                // the fit has run to where the effect vanishes
+                Some([low, high]) if p.value <= low => format!(
+                    "{} (95 %: up to {})",
+                    with_unit(significant(p.value, 3), &p.unit),
+                    significant(high, 3)
+                ),
                 Some([low, high]) => format!(
                     "{} (95 %: {} to {})",
                     with_unit(significant(p.value, 3), &p.unit),
@@ -277,5 +288,23 @@ mod tests {
         assert_eq!(last(&ranking), "lubricant_ageing");
         ranking[1] = alone("coating");
         assert_eq!(last(&ranking), "oxidative+unknown");
+    }
+
+    #[test]
+    fn the_base_model_stands_below_the_others_wherever_it_ranks() {
+        let alone = |name| entry(Hypothesis::Effects(EffectSet::new([find(name).unwrap()])));
+        let names = ["coating", "tip_relief", "surface_layer"];
+        let names = names.into_iter().chain(["oxidative", "running_in"]);
+        let mut ranking: Vec<Ranked> = names.map(alone).collect();
+        ranking.push(alone("lubricant_ageing"));
+        ranking.push(alone("film_thickness"));
+        ranking.push(entry(Hypothesis::NothingMissing));
+        let lines = shown(&ranking);
+        assert_eq!(lines.len(), SHOWN + 1);
+        assert_eq!(name(lines[SHOWN]), "nothing missing: the base model");
+        // no second line of it
+        let second = ranking.len() - 1;
+        ranking.swap(1, second);
+        assert_eq!(shown(&ranking).len(), SHOWN);
     }
 }

@@ -1022,3 +1022,37 @@ fn what_follows_a_change_over_time_in_part_is_not_named() {
         );
     }
 }
+
+/// k that changes after some cycles, as three tests showed it: debris and ageing oil follow it alike, and so does a discrepancy; a free factor by the
+/// cycles is ahead of all of them.
+#[test]
+fn a_law_of_the_time_stands_instead_of_all_that_changes_k_over_time_alone() {
+    let [debris, ageing] = ["debris_abrasion", "lubricant_ageing"].map(place);
+    let instead_of = |replaced: &[usize]| {
+        let law = |&at: &usize| LawInsteadEvidence {
+            law: "learned:cycles".to_owned(),
+            ..place_law((at, at, 260.2))
+        };
+        let candidates = vec![
+            candidate(&[debris], 243.7, 499.3),
+            candidate(&[ageing], 243.1, 501.1),
+            candidate(&[place("coating")], 87.7, 184.6),
+        ];
+        decided(&Evidence {
+            beside_unknown: vec![beside(debris, -21.9, 499.3, 6.0)],
+            time_laws: replaced.iter().map(law).collect(),
+            ..evidence(candidates, 519.5, 243.9)
+        })
+    };
+    let named = |found: &Decision, at: usize| {
+        found.log_probabilities[&Hypothesis::Effects(EffectSet::new([CATALOGUE[at]]))].exp()
+    };
+    let found = instead_of(&[debris, ageing]);
+    assert_eq!(found.verdict, Verdict::Unknown);
+    assert!(named(&found, debris) < 1e-3 && named(&found, ageing) < 1e-3);
+    // none is counted twice: what each gives up is its own
+    let found = instead_of(&[debris]);
+    assert!(named(&found, ageing) > 0.15, "{found:?}");
+    let found = instead_of(&[]);
+    assert!(named(&found, debris) > 0.15 && named(&found, ageing) > 0.15);
+}

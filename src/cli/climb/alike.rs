@@ -6,7 +6,7 @@ use super::steps::{drop_needless, names, refused};
 use super::version::{Fitted, Fitter};
 use crate::learn::climb::{Answer, Standing, choose};
 
-/// Fits each of the effects and goes on from the one that does best by evidence and on tests that it was not fitted to; false if none pays.
+/// Fits each of the effects and goes on from the one that does best by evidence and the error on tests that it was not fitted to combined; false if none pays.
 pub(super) fn best_of(
     effects: &[String],
     state: &mut State,

@@ -135,8 +135,8 @@ pub fn choose(effects: &[(&str, Standing, bool)]) -> Option<Choice> {
     let place = *paying.first()?;
     let (name, standing, _) = effects[place];
     let tests = match standing.holdout {
-        Some(_) => "by evidence and on the held-out tests",
-        None => "by evidence and on tests left out of the fit",
+        Some(_) => "by evidence and held-out error combined",
+        None => "by evidence and left-out error combined",
     };
     let mut in_order = paying.clone();
     in_order.sort_unstable();
@@ -196,11 +196,11 @@ mod tests {
         assert_eq!(best.place, 1);
         assert_eq!(
             best.why,
-            "of profile_slope, tip_relief and profile_form, tip_relief does best by evidence and on the held-out tests"
+            "of profile_slope, tip_relief and profile_form, tip_relief does best by evidence and held-out error combined"
         );
         assert_eq!(
             best.why_not,
-            "tip_relief does better by evidence and on the held-out tests"
+            "tip_relief does better by evidence and held-out error combined"
         );
         let best = of([1.135, 1.114, 1.18], [true, false, true]).unwrap();
         assert_eq!((best.place, best.why.contains("tip_relief")), (0, false));
@@ -246,7 +246,7 @@ mod tests {
         assert_eq!(best.place, 1);
         assert_eq!(
             best.why,
-            "of a and b, b does best by evidence and on tests left out of the fit"
+            "of a and b, b does best by evidence and left-out error combined"
         );
     }
 

@@ -5,11 +5,13 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::findings::Findings;
+use super::held_out::better_on_held_out;
 use super::ranked::{Ranked, form, parameters, ranked};
 use super::remainder::{Remainder, established, remainder};
 use super::undecided::{is_within_analytic_error, undecided};
 use super::warnings::warnings;
 use super::wording::Explanation;
+use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::checks::goodness_of_fit::GoodnessOfFit;
 use crate::learn::checks::sufficiency::few;
 use crate::learn::decision::judged_candidates::JudgedCandidates;
@@ -26,6 +28,7 @@ use crate::learn::hypothesis::Hypothesis;
 use crate::learn::hypothesis::candidate::NotJudged;
 use crate::learn::model_search::context::Context;
 use crate::learn::model_search::learned_drivers::LearnedAnswer;
+use crate::study::Role;
 
 /// How a warning begins that is a question about the measurements.
 pub const CHECK_FIRST: &str = "check first: ";
@@ -215,6 +218,9 @@ impl Diagnosis {
             Explanation::new(&findings, drivers.first(), next_experiment.as_ref());
         let doubt = goodness_of_fit.iter().filter_map(|fit| fit.warning.clone());
         explanation.reasons.splice(0..0, doubt);
+        let held = Likelihood::new(likelihood.measured, likelihood.noise, Role::Holdout);
+        let better = better_on_held_out(decision, &ranking, held.len());
+        explanation.reasons.extend(better);
         // beside something unknown the effects alone are what cannot be told apart
         let member = |hypothesis: &Hypothesis| match hypothesis {
             Hypothesis::EffectsAndUnknown(effects) => effects.to_string(),

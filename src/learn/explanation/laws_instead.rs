@@ -81,9 +81,8 @@ fn instead_of_effect(
     why: fn(&LawInsteadEvidence) -> &'static str,
     candidates: &[CandidateEvidence],
 ) -> Option<String> {
-    let law = laws
-        .iter()
-        .max_by(|a, b| a.evidence_gain.total_cmp(&b.evidence_gain))?;
+    // of equals the first, which is instead of the leader
+    let law = (laws.iter().rev()).max_by(|a, b| a.evidence_gain.total_cmp(&b.evidence_gain))?;
     let mut with_effect: Vec<&CandidateEvidence> = (candidates.iter())
         .filter(|c| c.effects.contains(&law.instead_of))
         .collect();

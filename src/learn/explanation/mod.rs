@@ -2,6 +2,7 @@
 
 mod diagnosis;
 pub(in crate::learn) mod findings;
+mod held_out;
 mod laws_instead;
 mod learned;
 mod named;

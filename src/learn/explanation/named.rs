@@ -7,7 +7,7 @@ use super::wording::{
 };
 use crate::effects::{Card, Form};
 use crate::learn::candidates::fitted_candidate::FittedCandidate;
-use crate::learn::hypothesis::Hypothesis;
+use crate::learn::hypothesis::{EffectSet, Hypothesis};
 use crate::learn::model_search::second_effects;
 use crate::numeric::written::significant;
 
@@ -86,10 +86,11 @@ fn weaker_beside(findings: &Findings<'_>, leader: &FittedCandidate) -> Option<St
         return None;
     }
     let (effects, fall) = second_effects::next(context, base, &posterior.candidates, leader)?;
+    let names: Vec<String> = effects.iter().map(EffectSet::in_words).collect();
     let name = leader.candidate.effects.in_words();
     Some(format!(
         "Something weaker may be missing beside it: {}, or another form of {name}, would take some {} more off χ².",
-        effects.in_words(),
+        names.join(" or "),
         significant(fall, 2)
     ))
 }

@@ -18,7 +18,8 @@ use crate::study::{Role, Scatter};
 const LISTED: usize = 12;
 /// Rise of χ² from which an entry is left out: its parameters are where the search began.
 const WORSE: f64 = 20.0;
-/// Leaders whose held-out error is computed, and the log probability from which those behind the first are worth that: e^-14 is about a millionth.
+/// Leaders whose held-out error is computed beside those that cannot be told apart, and the log probability from which those behind the first are worth
+/// that: e^-14 is about a millionth.
 const JUDGED_ON_HOLDOUT: usize = 3;
 const WORTH_JUDGING: f64 = -14.0;
 
@@ -139,6 +140,7 @@ pub(in crate::learn) fn ranked(
         |(i, &(hypothesis, log, fitted)): (usize, &(&Hypothesis, f64, &FittedCandidate))| {
             let is_base = nothing(hypothesis);
             let leads = i == 0 || i < JUDGED_ON_HOLDOUT && log > WORTH_JUDGING;
+            let leads = leads || decision.group.contains(hypothesis);
             let wanted = !held.tests.is_empty() && (leads || is_base);
             Ranked {
                 effect: hypothesis.clone(),

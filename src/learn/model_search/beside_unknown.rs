@@ -114,20 +114,22 @@ impl Context<'_> {
         };
         fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
         let pairs = context.pairs_ahead(plain, &base, &fitted, alone);
+        let leader = alone.first().map(|leader| &leader.candidate.effects);
         let mut chosen: Vec<FittedCandidate> = Vec::new();
         for candidate in fitted {
             let effects = &candidate.candidate.effects;
             let known = |c: &FittedCandidate| c.candidate.effects == *effects;
             let of_pair = |pair: &FittedCandidate| pair.candidate.effects.contains(effects);
-            let of_pair = pairs.iter().any(of_pair);
-            if (chosen.len() >= JUDGED && !of_pair) || chosen.iter().any(known) {
+            // where a discrepancy does all that the leader does, the leader gains less beside it than effects that do nothing
+            let is_wanted = pairs.iter().any(of_pair) || leader == Some(effects);
+            if (chosen.len() >= JUDGED && !is_wanted) || chosen.iter().any(known) {
                 continue;
             }
             // what the analytic model gains cannot be held against what elements do; it did not promise enough to be fitted by these
             let like_base = candidate.fidelity >= self.fidelity.min(Fidelity::Middle);
             if like_base {
                 chosen.push(candidate);
-            } else if of_pair {
+            } else if is_wanted {
                 chosen.extend(context.fitted_from(&base, &candidate));
             }
         }

@@ -17,6 +17,10 @@ use crate::learn::hypothesis::EffectSet;
 
 /// Gain of ln likelihood from which a second effect is worth a sentence: of some fifty forms the best gains 4 to 5 from noise.
 const WORTH_A_SENTENCE: f64 = 10.0;
+/// Share of the largest promise from which another effect may be the one as well: no promise is nearer to what the fit then brings.
+const ALIKE: f64 = 0.8;
+/// So many of them are named.
+const NAMED: usize = 3;
 /// Least part of a change's square that the first effect cannot make: of less, the changes' own curvature is left.
 const LEAST_OWN: f64 = 1e-3;
 
@@ -57,13 +61,13 @@ fn gain(own: &DVector<f64>, left: &DVector<f64>, least: f64) -> f64 {
     }
 }
 
-/// The single effect that promises most beside `leader`, and the fall of χ² that it promises, if it is worth a sentence.
+/// The single effects that promise most beside `leader`, the best first, and the fall of χ² that it promises, if it is worth a sentence.
 pub(in crate::learn) fn next(
     context: &Context<'_>,
     base: &BaseFit,
     fitted: &[FittedCandidate],
     leader: &FittedCandidate,
-) -> Option<(EffectSet, f64)> {
+) -> Option<(Vec<EffectSet>, f64)> {
     let likelihood = &context.likelihood;
     let follows = base.follows(likelihood, leader);
     let beyond = |v: DVector<f64>| {
@@ -84,7 +88,15 @@ pub(in crate::learn) fn next(
         gain(&beyond(change), &left, least)
     };
     let gains: Vec<f64> = all.par_iter().map(promised).collect();
-    let gains = gains.into_iter().zip(all);
-    let (gain, best) = gains.max_by(|a, b| a.0.total_cmp(&b.0))?;
-    (gain > WORTH_A_SENTENCE).then(|| (best.candidate.effects.clone(), 2.0 * gain))
+    let mut gains: Vec<(f64, &FittedCandidate)> = gains.into_iter().zip(all).collect();
+    gains.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let &(most, _) = gains.first().filter(|best| best.0 > WORTH_A_SENTENCE)?;
+    let mut promising: Vec<EffectSet> = Vec::new();
+    for (_, other) in gains.iter().take_while(|other| other.0 > ALIKE * most) {
+        if !promising.contains(&other.candidate.effects) {
+            promising.push(other.candidate.effects.clone());
+        }
+    }
+    promising.truncate(NAMED);
+    Some((promising, 2.0 * most))
 }

@@ -166,7 +166,7 @@ fn of_what_looks_alike_the_best_on_held_out_tests_is_kept() {
     let name = kept[0]["added"].as_str().unwrap();
     assert!(
         choice.contains(&format!(
-            "{name} does best by evidence and on the held-out tests"
+            "{name} does best by evidence and held-out error combined"
         )),
         "{choice}"
     );
@@ -174,7 +174,7 @@ fn of_what_looks_alike_the_best_on_held_out_tests_is_kept() {
     let value = |step: &Value, key: &str| step[key].as_f64().unwrap();
     let [error, gain] = ["holdout_chi2_per_point", "log_evidence_gain"];
     for step in tried.iter().filter(|s| s["kept"] == false) {
-        let by_all = format!("{name} does better by evidence and on the held-out tests");
+        let by_all = format!("{name} does better by evidence and held-out error combined");
         let better = value(kept[0], error) <= value(step, error)
             || value(kept[0], gain) >= value(step, gain);
         assert!(
