@@ -235,7 +235,7 @@ fn parameters(entry: &Ranked) -> String {
 mod tests {
     use super::*;
     use crate::effects::find;
-    use crate::learn::diagnose::EffectSet;
+    use crate::learn::diagnose::{EffectSet, ParameterValue};
 
     fn entry(effect: Hypothesis) -> Ranked {
         Ranked {
@@ -288,6 +288,25 @@ mod tests {
         assert_eq!(last(&ranking), "lubricant_ageing");
         ranking[1] = alone("coating");
         assert_eq!(last(&ranking), "oxidative+unknown");
+    }
+
+    #[test]
+    fn an_interval_that_begins_at_the_value_is_a_bound() {
+        let of = |low: f64| Ranked {
+            parameters: vec![ParameterValue {
+                name: "amount".to_owned(),
+                value: 0.2,
+                sigma: 4.0,
+                interval_95: Some([low, 17.9]),
+                unit: "um".to_owned(),
+                at_bound: false,
+            }],
+            ..entry(Hypothesis::Effects(EffectSet::new([
+                find("lead_crowning").unwrap()
+            ])))
+        };
+        assert_eq!(parameters(&of(0.2)), "amount = 0.2 µm (95 %: up to 17.9)");
+        assert!(parameters(&of(0.1)).ends_with("(95 %: 0.1 to 17.9)"));
     }
 
     #[test]

@@ -35,6 +35,7 @@ mod moved_places;
 mod moved_rotation;
 mod negated;
 mod no_wear;
+mod odd_beside_mate;
 mod odd_curves;
 mod odd_weighings;
 mod one_series;
@@ -70,6 +71,12 @@ const SAME_CYCLES: f64 = 0.005;
 
 /// What the measurements show by themselves, without any model, the worst first.
 pub(super) fn sanity_of_data(study: &Study, data: &Dataset) -> Vec<String> {
+    let of_zeros = cut_at_zero::cut_at_zero(data).into_iter();
+    of_zeros.chain(by_themselves(study, data)).collect()
+}
+
+/// The same but for depths of exactly 0, which in a computed table are right and hide nothing else.
+fn by_themselves(study: &Study, data: &Dataset) -> Vec<String> {
     // all else would follow from it
     if let Some(other) = cycles_in_another_unit(study, data) {
         return vec![other];
@@ -92,9 +99,6 @@ pub(super) fn sanity_of_data(study: &Study, data: &Dataset) -> Vec<String> {
     if let Some(own) = gear_revolutions::gear_revolutions(study, data) {
         return vec![own];
     }
-    if let Some(cut) = cut_at_zero::cut_at_zero(data) {
-        return vec![cut];
-    }
     let slips = decimal_slips::decimal_slips(study, data);
     if !slips.is_empty() {
         return slips;
@@ -109,7 +113,13 @@ pub(super) fn sanity_of_data(study: &Study, data: &Dataset) -> Vec<String> {
 
 /// All that there is to say, the worst first.
 pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
-    let by_themselves = sanity_of_data(study, data);
+    let of_zeros = cut_at_zero::cut_at_zero(data).into_iter();
+    of_zeros.chain(beside_zeros(study, data, fit)).collect()
+}
+
+/// The same but for depths of exactly 0.
+fn beside_zeros(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
+    let by_themselves = by_themselves(study, data);
     if !by_themselves.is_empty() {
         return by_themselves;
     }

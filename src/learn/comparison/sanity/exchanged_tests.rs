@@ -118,6 +118,9 @@ mod tests {
             found(&[(10.0, 1.52), (15.0, 0.66), (25.0, 1.02), (40.0, 0.97)]),
             Some((0, 1))
         );
+        // two tests of one torque, and k that scatter by 15 %
+        let scattered = [(120.0, 8.05), (200.0, 2.99), (120.0, 5.19), (160.0, 5.77)];
+        assert_eq!(found(&scattered), Some((0, 1)));
         // beside a law of the speed
         let beside = [(60.0, 5.55), (110.0, 1.46), (90.0, 4.2), (85.0, 3.52)];
         assert_eq!(found(&beside), Some((0, 1)));

@@ -3,34 +3,21 @@
 //! ```text
 //! ln size ≈ a + b ln N       size: N times the scale that takes the model to a curve, its datum removed
 //! ```
-//! Sizes stand apart from that as weighings do from theirs: curves are off by a factor, the first as well as the last. Of series too short for that a curve is
-//! held against the other member's of the same moment:
-//!
-//! ```text
-//! d = ln size_pinion − ln size_gear of each moment of each test;  s = 1.48 median |d − median d|
-//! |d − median d| > max(8 s, ln 1.5) at one moment, < max(4.5 s, ln 1.15) at all others
-//! ```
+//! Sizes stand apart from that as weighings do from theirs: curves are off by a factor, the first as well as the last. [`super::odd_beside_mate`] looks at series that
+//! are too short for that.
 
 use std::collections::BTreeMap;
 
 use super::super::residual_statistics::FittedRow;
-use super::standing_apart::{ALIKE, APART, Law, Series, farthest};
+use super::odd_beside_mate::odd_beside_mate;
+use super::standing_apart::{Law, Series, farthest};
 use super::{EXPLAINS, Scale, scale};
 use crate::measure::{Quantity, Subject};
 use crate::numeric::written;
-use crate::numeric::{MEDIAN_OF_NORMAL, median};
 use crate::study::Study;
 
 /// Least part of its size that a curve is off: what the model lacks may be less.
 const LEAST: f64 = 0.15;
-
-/// Factor by which a curve must be off from what the other member's leads to, for a layer of one member may be worn through at one moment
-/// only; the factor up to which the other curves are alike, and their fewest moments.
-const LEAST_FACTOR: f64 = 1.5;
-const ALIKE_FACTOR: f64 = 1.15;
-const FEWEST_MOMENTS: usize = 6;
-/// Part of the deviation that the curve which is not meant may be off from its own series.
-const MUCH_LESS: f64 = 0.4;
 
 /// How the sizes of curves grow, in logarithms.
 const OF_SIZES: Law = Law {
@@ -49,7 +36,7 @@ pub(super) fn odd_curve(study: &Study, rows: &[FittedRow<'_>]) -> Option<String>
         let own = curves.entry((o.test, o.member, o.cycles.to_bits()));
         own.or_default().push(*row);
     }
-    let mut all = Sizes::new();
+    let mut all: BTreeMap<(usize, Subject), Series> = BTreeMap::new();
     for ((test, member, cycles), own) in curves {
         let found = scale(&own, Quantity::WearDepth, Some(member));
         // a curve without a size of its own leaves a series without it
@@ -60,10 +47,10 @@ pub(super) fn odd_curve(study: &Study, rows: &[FittedRow<'_>]) -> Option<String>
             own.push([log, log + found.factor.ln()]);
         }
     }
-    let of_pairs = beside_the_other_member(study, &all);
-    let (whose, series): (Vec<(usize, Subject)>, Vec<Series>) = all.into_iter().unzip();
+    let (whose, series): (Vec<(usize, Subject)>, Vec<Series>) =
+        all.iter().map(|(of, own)| (*of, own.clone())).unzip();
     let Some(odd) = farthest(&series, &OF_SIZES) else {
-        return of_pairs;
+        return odd_beside_mate(study, &all);
     };
     let ((test, member), [log_cycles, size]) = (whose[odd.series], series[odd.series][odd.at]);
     Some(format!(
@@ -77,74 +64,13 @@ pub(super) fn odd_curve(study: &Study, rows: &[FittedRow<'_>]) -> Option<String>
     ))
 }
 
-/// ln cycles and ln size, by test and member.
-type Sizes = BTreeMap<(usize, Subject), Series>;
-
-/// The same about the curve that stands apart from the other member's of its moment.
-fn beside_the_other_member(study: &Study, all: &Sizes) -> Option<String> {
-    let mut apart: Vec<(usize, f64, f64)> = Vec::new();
-    for ((test, member), pinion) in all {
-        let gear = all.get(&(*test, Subject::Gear));
-        let (Subject::Pinion, Some(gear)) = (member, gear) else {
-            continue;
-        };
-        for [log_cycles, size] in pinion {
-            let mate = gear.iter().find(|[at, _]| at == log_cycles);
-            apart.extend(mate.map(|[_, of_gear]| (*test, *log_cycles, size - of_gear)));
-        }
-    }
-    let middle = median(apart.iter().map(|d| d.2).collect())?;
-    let scatter = median(apart.iter().map(|d| (d.2 - middle).abs()).collect())? / MEDIAN_OF_NORMAL;
-    let far = |d: &(usize, f64, f64)| (d.2 - middle).abs();
-    apart.sort_by(|a, b| far(b).total_cmp(&far(a)));
-    let [odd, others @ ..] = &apart[..] else {
-        return None;
-    };
-    let is_apart = far(odd) > (APART * scatter).max(LEAST_FACTOR.ln());
-    let are_alike = others.first().map(far)? < (ALIKE * scatter).max(ALIKE_FACTOR.ln());
-    if !is_apart || !are_alike || apart.len() < FEWEST_MOMENTS {
-        return None;
-    }
-    let &(test, log_cycles, difference) = odd;
-    // the one that its own series does not lead to; of two curves of each nobody knows
-    let off = |member: Subject| {
-        let own = &all[&(test, member)];
-        let size = own.iter().find(|[at, _]| *at == log_cycles)?[1];
-        let others = own.iter().filter(|[at, _]| *at != log_cycles);
-        // per cycle, for two others lead to a line that is far off soon
-        let rates: Vec<f64> = others.map(|[at, size]| size - at).collect();
-        Some((size - log_cycles - median(rates)?).abs())
-    };
-    let [of_pinion, of_gear] = [Subject::Pinion, Subject::Gear].map(off);
-    let whose = match (of_pinion?, of_gear?) {
-        (pinion, gear) if gear < MUCH_LESS * pinion => "the pinion",
-        (pinion, gear) if pinion < MUCH_LESS * gear => "the gear",
-        _ => "one of the members",
-    };
-    let times = (difference - middle).exp();
-    // as the one whose curve it is sees it
-    let times = if whose == "the gear" {
-        1.0 / times
-    } else {
-        times
-    };
-    Some(format!(
-        "wear_depth of {whose} in test {} after {} cycles is {} times what the other member's curve of the same moment leads to, where all other curves of the \
-         two members agree within {:.0} %: look at this curve first (the gain of its trace, the tooth and the checkpoint that it is of)",
-        study.tests[test].id,
-        written::count(log_cycles.exp().round()),
-        written::significant(times, 2),
-        (100.0 * (others.first().map_or(0.0, far).exp() - 1.0)).ceil()
-    ))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::measure::Dataset;
 
-    /// What is asked where the third of so many curves of test A's pinion is `times` as large as wear that slows down.
-    fn said(times: f64, curves: u32) -> Option<String> {
+    /// What is asked where the third of so many curves of a member in test A is `times` as large as wear that slows down.
+    fn said((odd, times): (&str, f64), curves: u32) -> Option<String> {
         let study = include_str!("../../../../validation/challenges/none_L2/study.toml");
         let study = Study::parse(study, "study.toml").unwrap();
         let mut text = "test,member,cycles,quantity,position,value,sigma\n".to_owned();
@@ -159,7 +85,7 @@ mod tests {
             for part in 1..=curves {
                 let cycles = 50_000 * part;
                 let n = f64::from(part) / 4.0;
-                let is_odd = test == "A" && member == "pinion" && part == 3;
+                let is_odd = test == "A" && member == odd && part == 3;
                 for (place, shape) in [2.0, 1.0, 0.2, 0.7, 1.5].into_iter().enumerate() {
                     let radius = if member == "pinion" { 26.2 } else { 51.7 } + 0.6 * place as f64;
                     let model = 6.0 * n * shape;
@@ -178,7 +104,7 @@ mod tests {
 
     #[test]
     fn a_curve_that_is_a_third_too_large_is_asked_about() {
-        let said = said(1.33, 4).unwrap();
+        let said = said(("pinion", 1.33), 4).unwrap();
         assert!(
             said.contains("of the pinion in test A after") && said.contains("is 1.3 times"),
             "{said}"
@@ -187,22 +113,25 @@ mod tests {
 
     #[test]
     fn curves_that_slow_down_alike_are_not() {
-        assert_eq!(said(1.0, 4), None);
-        assert_eq!(said(1.1, 4), None);
+        assert_eq!(said(("pinion", 1.0), 4), None);
+        assert_eq!(said(("pinion", 1.1), 4), None);
     }
 
     /// Three curves of each series are too few for its growth.
     #[test]
     fn of_short_series_the_other_member_tells() {
-        for times in [2.0, 0.5] {
-            let said = said(times, 3).unwrap();
-            let cycles = written::count(150_000.0);
-            let expected = format!("of the pinion in test A after {cycles} cycles is {times:.1}");
-            assert!(said.contains(&expected), "{said}");
+        for odd in ["pinion", "gear"] {
+            for times in [2.0, 0.5] {
+                let said = said((odd, times), 3).unwrap();
+                let cycles = written::count(150_000.0);
+                let expected =
+                    format!("of the {odd} in test A after {cycles} cycles is {times:.1}");
+                assert!(said.contains(&expected), "{said}");
+            }
         }
-        assert_eq!(said(1.0, 3), None);
+        assert_eq!(said(("pinion", 1.0), 3), None);
         // a layer that is worn through at one moment may do so
-        assert_eq!(said(1.33, 3), None);
-        assert_eq!(said(2.0, 2), None);
+        assert_eq!(said(("pinion", 1.33), 3), None);
+        assert_eq!(said(("pinion", 2.0), 2), None);
     }
 }
