@@ -305,8 +305,8 @@ mod tests {
                 find("lead_crowning").unwrap()
             ])))
         };
-        assert_eq!(parameters(&of(0.2)), "amount = 0.2 µm (95 %: up to 17.9)");
-        assert!(parameters(&of(0.1)).ends_with("(95 %: 0.1 to 17.9)"));
+        assert_eq!(parameters(&of(0.2)), "amount = 0.200 µm (95 %: up to 17.9)");
+        assert!(parameters(&of(0.1)).ends_with("(95 %: 0.100 to 17.9)"));
     }
 
     #[test]
